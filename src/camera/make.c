@@ -303,6 +303,39 @@ dp_spec camera_to_spec(const camera_said *c) {
                      .triangles = c->triangles};
 }
 
+/* A viewport as high as the canvas from which its preset computes its planes, where it does. */
+static void take_canvas(const camera_said *c, dp_triangles *t) {
+    const int i = c->preset_count == 1 ? preset_parameter_of(c->presets[0], "height") : -1;
+    const double given = i >= 0 ? c->values[0].given[i] : (double)NAN,
+                 high = i >= 0 && isnan(given) ? c->presets[0]->function->parameters[i].standard : given;
+    if (!(high >= 1.0 && high <= CAMERA_SIDE_MOST / 2.0))
+        return;
+    t->width = (int)round(high * t->width / t->height);
+    t->height = (int)high;
+}
+
+bool camera_assumed(const camera_said *c, const dp_spec *spec, dp_spec *out) {
+    camera_said assumed = *c;
+    camera_fault fault = {.key = NULL};
+    dp_triangles *t = &assumed.triangles;
+    if (spec->triangles.width > 0 || spec->ortho || dp_mapping_get(spec->mapping)->curve != DP_CURVE_PERSPECTIVE)
+        return false;
+    *t = dp_triangles_default();
+    take_canvas(c, t);
+    if (!camera_viewed(&assumed, &fault))
+        return false;
+    if (c->preset_count == 1)
+        bring_raster(&assumed, c->presets[0]->raster);
+    if (c->platform != NULL)
+        bring_raster(&assumed, c->platform->raster);
+    if (!take_arith(&assumed, &fault) || (assumed.raster != NULL && !raster_bounded(assumed.raster, &spec->format)))
+        return false;
+    *out = *spec;
+    out->triangles = *t;
+    out->arith = assumed.arith;
+    return true;
+}
+
 bool camera_has(const dp_spec *spec, camera_key key) {
     const dp_mapping_row *row = dp_mapping_get(spec->mapping);
     return key == CAMERA_LOG_C ? row->curve == DP_CURVE_LOG && !row->log_over_near

@@ -133,6 +133,15 @@ bool camera_keeps(const camera_said *c, const dp_format *format, camera_fault *f
 /** All of a made camera but format and mapping, of which there may be several: those are its first. */
 dp_spec camera_to_spec(const camera_said *c);
 
+/**
+ * Surfaces at any slant where nothing was said of a viewport: what a set-up of the camera is with `viewport` 1920x1080,
+ * or as high as the canvas that its preset computes with, the standard class, and of field of view, rasterizer and
+ * arithmetic what preset and platform then bring.
+ * @return false where nothing is guaranteed to them: orthographic, a mapping that is not affine on the screen, a
+ *         rasterizer without a bound; or where a viewport was said
+ */
+bool camera_assumed(const camera_said *c, const dp_spec *spec, dp_spec *out);
+
 /** Whether a constant C or an arithmetic is of use to a set-up: a shader writes a linear depth, and what is said of it
  * leaves its arithmetic out. */
 bool camera_has(const dp_spec *spec, camera_key key);

@@ -207,7 +207,7 @@ TEST(published) {
 TEST(text) {
     static const char *const said[] = {"viewport 1920x1080, fov 40, 8 subpixel bits, slant 0 to 90 degrees, ieee\n",
                                        "triangles from z/2 to 2 z, at most 512 pixels, aspect ratio at most 16:1\n",
-                                       "resolved, facing the camera:"};
+                                       "\nFacing the camera, as a wall straight ahead does:"};
     const slant_case *c = &cases[0];
     printed p = print_of("table %s --at 700", c->line);
     const char *head = strstr(p.out, " guaranteed    slanted\n");
@@ -226,7 +226,7 @@ TEST(text) {
 TEST(one_slant) {
 #define VIEW87 "-F d24 -m d3d --viewport 1920x1080 --slant 87:87"
     static const char *const lines[][2] = {
-        {"table " VIEW87, "to be resolved, at 87 degrees:"},
+        {"table " VIEW87, "to be resolved at 87 degrees:"},
         {"table --range 1:100 " VIEW87, "\n  at 87 degrees"},
         {"table -F d24,d16 -m d3d --viewport 1920x1080 --slant 87:87", "resolves 0.01 at 87 degrees up to"},
         {"table -F d24,d16 -m d3d --viewport 1920x1080 --slant 87:87", "guaranteed at that slant, z"},

@@ -102,6 +102,53 @@ static const method_row *method_of(const dp_setup *setup, double tolerance, bool
     return row;
 }
 
+static bool holds(const dp_setup *full, double z, double limit) {
+    dp_separation_worst w;
+    assert_int_equal(dp_separation_over(full, full->spec.znear, z, limit, &w), DP_OK);
+    return w.bound <= limit;
+}
+
+/* Up to there it is guaranteed, and 1 % farther it is not; NaN: not at near. */
+static void check_reach(const dp_setup *full, double limit, double up_to) {
+    const double znear = full->spec.znear, zfar = full->spec.zfar;
+    if (isnan(up_to)) {
+        assert_true(dp_separation(full, znear) > limit);
+        return;
+    }
+    assert_true(up_to >= znear && up_to <= zfar && holds(full, up_to, limit));
+    assert_true(up_to == zfar || !holds(full, fmin(1.011 * up_to, zfar), limit));
+}
+
+/* How far a millimetre, a centimetre and ten of them go: facing the camera, and at any slant of 1920x1080. */
+static void want_reach(values *v, const char *line, const dp_setup *setup, size_t i) {
+    const double metre = strstr(line, "--unit km") != NULL ? 1e-3 : strstr(line, "--unit cm") != NULL ? 100 : 1;
+    const bool drawn = !setup->spec.ortho && dp_mapping_get(setup->spec.mapping)->curve == DP_CURVE_PERSPECTIVE;
+    const dp_setup facing = dp_setup_guaranteed(setup);
+    dp_spec spec = setup->spec;
+    dp_setup any;
+    if (drawn)
+        spec.triangles = dp_triangles_default();
+    assert_int_equal(dp_setup_init(&any, &spec), DP_OK);
+    any = dp_setup_guaranteed(&any);
+    json_t *root = json_printed(0, "%s", line);
+    for (int k = 0; k < 3; k++) {
+        const char *const under = "setups[%zu].resolved[%d].%s";
+        const double limit = number_at(root, under, i, k, "separation"), to = number_at(root, under, i, k, "facing_to"),
+                     slanted_to = number_at(root, under, i, k, "slanted_to");
+        assert_relative(limit, pow(10, k - 3) * metre, 1e-12);
+        check_reach(&facing, limit, to);
+        if (drawn)
+            check_reach(&any, limit, slanted_to);
+        assert_true(drawn ? !(slanted_to > to) : isnan(slanted_to));
+        values_under(v, "setups[%zu].resolved[%d].", i, k);
+        want(v, "separation=%f facing_to=%f slanted_to=%f", limit, to, slanted_to);
+    }
+    values_under(v, "setups[%zu].assumed.", i);
+    if (drawn)
+        want(v, "width=%u height=%u fov=%f subpixel=%u", 1920, 1080, 60.0, 8);
+    json_decref(root);
+}
+
 static void want_table(values *v, const char *line, dp_setup *setup, size_t i) {
     const double tolerance = number_behind(line, "--tolerance", 0.05);
     const method_row *method = NULL;
@@ -126,6 +173,7 @@ static void want_table(values *v, const char *line, dp_setup *setup, size_t i) {
         values_under(v, "%srows[%d].", under, k);
         want_row(v, setup, method, z[k]);
     }
+    want_reach(v, line, setup, i);
     values_under(v, "%s", under);
     want_worst(v, setup, range[0], range[1]);
     values_under(v, "%s", under);

@@ -37,9 +37,12 @@ static void check_solve(tally *t, const char *target, side plane, const char *li
         const json_t *one = node_at(root, "alternatives[%zu]", i);
         char path[64];
         assert_string_equal(strncmp(column_of(row, 0), text_at(one, "format"), 4) == 0 ? "" : row, "");
+        snprintf(path, sizeof path, "any_slant.%s", target);
+        if (node_at(one, "any_slant") != NULL && flag_at(one, "any_slant.possible"))
+            check_side(t, line, path, column_of(row, 3), number_at(one, "%s", path), plane);
         snprintf(path, sizeof path, "lattice.%s", target);
         if (flag_at(one, "possible")) {
-            check_side(t, line, target, column_of(row, 3), number_at(one, "%s", target), plane);
+            check_side(t, line, target, column_of(row, 2), number_at(one, "%s", target), plane);
             check_side(t, line, "separation", column_of(row, 5), number_at(one, "separation"), UP);
         }
         if (flag_at(one, "lattice.possible"))

@@ -40,6 +40,15 @@ int each_setup_write(each_setup *w, const report_spec *spec, int status) {
     return status;
 }
 
+/* Surfaces at any slant, where nobody asks about a slant. */
+static dp_setup assumed_of(const each_setup *w) {
+    dp_spec spec;
+    dp_setup out = {.spec.triangles.width = 0};
+    if (camera_assumed(&w->here->said, &w->setup->spec, &spec) && dp_setup_init(&out, &spec) == DP_OK)
+        out = dp_setup_guaranteed(&out);
+    return out;
+}
+
 bool each_setup_go(each_setup *w, size_t i) {
     if (i == w->all.count)
         return false;
@@ -48,6 +57,7 @@ bool each_setup_go(each_setup *w, size_t i) {
     const dp_setup facing = dp_setup_facing(w->setup);
     w->full = dp_setup_guaranteed(&facing);
     w->slanted = dp_setup_guaranteed(w->setup);
+    w->assumed = assumed_of(w);
     w->fields = setup_fields_asked(w->setup, w->here);
     w->fields.preset = w->camera->preset_count > 1 ? w->camera->values[w->all.cameras[i]].words : NULL;
     return true;

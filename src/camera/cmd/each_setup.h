@@ -29,6 +29,7 @@ typedef struct each_setup {
     slant_fields slant;
     const slant_fields *triangles; /**< null: surfaces face the camera */
     dp_setup full, slanted;        /**< dp_setup_guaranteed() of those that do, and of any that are asked about */
+    dp_setup assumed;              /**< and, where none are, of those of camera_assumed(); without a viewport: none */
 } each_setup;
 
 /** The guaranteed separation of surfaces, scene units. */

@@ -54,6 +54,13 @@ number_text slant_words(const dp_triangles *t) {
     return out;
 }
 
+const char *slant_assumed(const dp_triangles *t, char out[SLANT_ASSUMED_SIZE]) {
+    snprintf(out, SLANT_ASSUMED_SIZE, "%dx%d, fov %s", t->width, t->height, number_of(t->fov_y, DIGITS).text);
+    if (t->subpixel > 0)
+        append(out, SLANT_ASSUMED_SIZE, ", %d subpixel bits", t->subpixel);
+    return out;
+}
+
 const slant_fields *slant_fields_of(const camera_asked *c, slant_fields *out) {
     if (c->triangles.width == 0)
         return NULL;
@@ -73,3 +80,9 @@ const column slant_columns[] = {{FIELD(slant_fields, triangles.width, "width", "
                                 {FIELD(slant_fields, triangles.pixels, "pixels", "")},
                                 {FIELD(slant_fields, triangles.slim, "slim", "")},
                                 {.kind = COLUMN_END}};
+
+const column slant_view_columns[] = {{FIELD(dp_triangles, width, "width", "")},
+                                     {FIELD(dp_triangles, height, "height", "")},
+                                     {FIELD(dp_triangles, fov_y, "fov", "degrees")},
+                                     {FIELD(dp_triangles, subpixel, "subpixel", "")},
+                                     {.kind = COLUMN_END}};

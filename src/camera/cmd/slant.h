@@ -15,6 +15,7 @@ typedef struct slant_fields {
 } slant_fields;
 
 extern const column slant_columns[];
+extern const column slant_view_columns[]; /**< of dp_triangles: the view that is assumed */
 
 /** Columns of the separation guaranteed to surfaces that face the camera and to any asked for; text has the latter. */
 #define GUARANTEES(type, facing, slanted, width, digits, its_when)                                                     \
@@ -25,6 +26,14 @@ extern const column slant_columns[];
 
 /** The surfaces for which a guarantee holds: "any slant", "87 degrees". */
 number_text slant_words(const dp_triangles *t);
+
+/** The word for the other guarantee, and what explains it; the page of the browser has the same. */
+#define SLANT_FACING  "facing the camera"
+#define SLANT_AS_WALL "as a wall straight ahead does"
+
+/** The view that camera_assumed() assumes: "1920x1080, fov 60, 8 subpixel bits". @return out */
+enum { SLANT_ASSUMED_SIZE = 80 };
+const char *slant_assumed(const dp_triangles *t, char out[SLANT_ASSUMED_SIZE]);
 
 /** Fills `out` from options that have a viewport. @return out; null without one */
 const slant_fields *slant_fields_of(const camera_asked *c, slant_fields *out);

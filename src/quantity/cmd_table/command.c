@@ -54,6 +54,11 @@ typedef struct worst {
     int digits; /* that show where the interval ends */
 } worst;
 
+/* A separation, and the depths up to which it is guaranteed; NaN: not even at near, or nothing is at a slant. */
+typedef struct reach {
+    double separation, facing, any_slant;
+} reach;
+
 /* The state of a table; the fields below the range are of the set-up at hand. */
 typedef struct table {
     each_setup each;
@@ -71,6 +76,8 @@ typedef struct table {
     per_vertex_worst written;
     char at_slant[NUMBER_SIZE + 4]; /* "at any slant" */
     double uncertain; /* the nearest depth shown before far whose guarantee is more than is left up to far; NaN: none */
+    reach reach[RESOLVED_LIMITS];
+    const dp_triangles *assumed; /* the view of those at a slant; null where it was given, or there is none */
     choosing choice;
     choice_fields chosen;
 } table;
@@ -139,6 +146,29 @@ static const promise *guarantee_over(const table *t, const dp_setup *full, promi
                                                                                                                 : NULL;
 }
 
+/* Of surfaces at any slant that was asked about, or is assumed; null where nothing is guaranteed to them. */
+static const dp_setup *any_slant(const table *t) {
+    return each_setup_slanted(&t->each)               ? &t->each.slanted
+           : t->each.assumed.spec.triangles.width > 0 ? &t->each.assumed
+                                                      : NULL;
+}
+
+static void find_reach(table *t) {
+    const unit_row *unit = t->each.here->lengths.unit;
+    double facing[RESOLVED_LIMITS], slanted[RESOLVED_LIMITS] = {(double)NAN, (double)NAN, (double)NAN};
+    resolved_up_to(&t->each.full, unit, facing);
+    if (any_slant(t) != NULL)
+        resolved_up_to(any_slant(t), unit, slanted);
+    t->assumed = t->each.assumed.spec.triangles.width > 0 ? &t->each.assumed.spec.triangles : NULL;
+    for (size_t i = 0; i < RESOLVED_LIMITS; i++)
+        t->reach[i] = (reach){resolved_limit(i, unit), facing[i], slanted[i]};
+}
+
+static void *next_reach(void *of, size_t i) {
+    table *t = of;
+    return i < RESOLVED_LIMITS ? &t->reach[i] : NULL;
+}
+
 static void *next_setup(void *of, size_t i) {
     table *t = of;
     if (!each_setup_go(&t->each, i))
@@ -156,6 +186,7 @@ static void *next_setup(void *of, size_t i) {
         t->interval = way_choose(setup, o->camera.tolerance, has_cut_cells(t, setup));
     if (o->out.form == FORM_CSV)
         return t;
+    find_reach(t);
     t->worst_case = (worst){.digits = 0};
     dp_worst_over(setup, t->lo, t->hi, &t->worst_case.of);
     t->worst_case.digits = digits_to_see(t->worst_case.of.interval_lo, t->worst_case.of.interval);
@@ -170,35 +201,48 @@ static void *next_setup(void *of, size_t i) {
 
 /* ---- Text -------------------------------------------------------------------------------------------------------- */
 
-/* The answer first: how far one can trust the set-up. */
-static void say_reach_of(page *p, const dp_setup *full, const unit_row *unit, const char *which) {
-    char text[RESOLVED_TEXT_SIZE], said[RESOLVED_TEXT_SIZE] = "";
-    double up_to[RESOLVED_LIMITS];
-    resolved_up_to(full, unit, up_to);
-    /* A separation wider than one that holds everywhere goes without saying. */
-    for (size_t i = 0; i < RESOLVED_LIMITS && (i == 0 || !(up_to[i - 1] >= full->spec.zfar)); i++)
-        if (!isnan(up_to[i]))
-            append(said, sizeof said, "%s %s up to %s%s", *said != '\0' ? "," : "", resolved_limit_text(i, unit).text,
-                   up_to[i] < full->spec.zfar ? "z = " : "", resolved_text(full->spec.zfar, up_to[i], unit, text));
-    if (*said != '\0')
-        page_text(p, "Guaranteed to be resolved%s:%s.", which, said);
-    else
-        page_text(p, "%s is not guaranteed to be resolved%s, even at the near plane.",
-                  resolved_limit_text(RESOLVED_LIMITS - 1, unit).text, which);
+/* "1 mm up to z = 31.9 m, 1 cm up to the far plane"; a separation wider than one that holds everywhere goes without
+ * saying. @return out, "" where nothing is guaranteed */
+static const char *reach_text(const table *t, bool facing, char out[RESOLVED_TEXT_SIZE]) {
+    const unit_row *unit = t->each.here->lengths.unit;
+    const double zfar = t->each.full.spec.zfar;
+    char text[RESOLVED_TEXT_SIZE];
+    double up_to = (double)NAN;
+    *out = '\0';
+    for (size_t i = 0; i < RESOLVED_LIMITS && !(up_to >= zfar); i++) {
+        up_to = facing ? t->reach[i].facing : t->reach[i].any_slant;
+        if (!isnan(up_to))
+            append(out, RESOLVED_TEXT_SIZE, "%s %s up to %s%s", *out != '\0' ? "," : "",
+                   resolved_limit_text(i, unit).text, up_to < zfar ? "z = " : "",
+                   resolved_text(zfar, up_to, unit, text));
+    }
+    return out;
 }
 
+/* How far one can trust the set-up; the second of two begins in its own words. */
+static void say_reach_of(page *p, const table *t, bool facing, const char *which, const char *begin) {
+    char said[RESOLVED_TEXT_SIZE];
+    if (*reach_text(t, facing, said) != '\0')
+        page_text(p, "%s%s:%s.", begin != NULL ? "" : "Guaranteed to be resolved ", begin != NULL ? begin : which,
+                  said);
+    else
+        page_text(p, "%s is not guaranteed to be resolved %s, even at the near plane.",
+                  resolved_limit_text(RESOLVED_LIMITS - 1, t->each.here->lengths.unit).text, which);
+}
+
+/* The answer first: at any slant, then of surfaces that face the camera, which the columns are of. */
 static void say_reach(page *p, void *item) {
     const table *t = item;
-    const unit_row *unit = t->each.here->lengths.unit;
+    char view[SLANT_ASSUMED_SIZE], where[SLANT_ASSUMED_SIZE + 32];
     each_setup_title(p, item);
     slant_say(p, page_title, t->each.here, &t->each.full);
     if (t->each.all.count > 1)
         return;
-    say_reach_of(p, &t->each.full, unit, t->each.triangles != NULL ? ", facing the camera" : "");
-    char slanted[NUMBER_SIZE + 8];
-    snprintf(slanted, sizeof slanted, ", %s", t->at_slant);
-    if (each_setup_slanted(&t->each))
-        say_reach_of(p, &t->each.slanted, unit, slanted);
+    snprintf(where, sizeof where, "at any slant (%s)", slant_assumed(&t->each.assumed.spec.triangles, view));
+    if (any_slant(t) != NULL)
+        say_reach_of(p, t, false, each_setup_slanted(&t->each) ? t->at_slant : where, NULL);
+    say_reach_of(p, t, true, SLANT_FACING ", " SLANT_AS_WALL,
+                 any_slant(t) != NULL ? "Facing the camera, " SLANT_AS_WALL : NULL);
 }
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
@@ -237,6 +281,11 @@ static const column row_columns[] = {
      .when = VERBOSE},
     {TEXT_FIELD(row, sample.hi, "to", 18, 0), .digits_at = offsetof(row, cell_digits), .upward = true, .when = VERBOSE},
     {.kind = COLUMN_END}};
+
+static const column reach_columns[] = {{FIELD(reach, separation, "separation", "scene")},
+                                       {FIELD(reach, facing, "facing_to", "scene")},
+                                       {FIELD(reach, any_slant, "slanted_to", "scene")},
+                                       {.kind = COLUMN_END}};
 
 #define CELL_END .digits_at = offsetof(worst, digits)
 static const column worst_columns[] = {
@@ -277,6 +326,8 @@ static const column setup_report[] = {
     {FIELD(table, interval.name, "method", ""), .only = AS_CSV, .when = WITH_TOLERANCE},
     {FIELD(table, each.fields.preset, "preset", ""), .only = AS_CSV, .when = WITH_PRESETS},
     {FIELD(table, each.fields.unit, "unit", ""), .only = AS_CSV, .when = WITH_PRESETS},
+    {LIST("resolved", reach_columns, next_reach), .only = AS_JSON},
+    {PART(table, assumed, "assumed", slant_view_columns), .only = AS_JSON, .pointed = true, .optional = true},
     {PART(table, worst, "worst", worst_columns), .only = AS_JSON, .pointed = true},
     {PART(table, guarantee, "worst_separation", guarantee_columns), .only = AS_JSON, .pointed = true, .optional = true},
     {PART(table, guarantee_slanted, "worst_separation_slanted", guarantee_columns), .only = AS_JSON, .pointed = true,

@@ -19,6 +19,7 @@
 #include "core/engine.h"
 #include "quantity/cmd/resolved.h"
 #include "report/number.h"
+#include "solve/distance.h"
 
 enum {
     DEPTHS = 5,
@@ -26,6 +27,7 @@ enum {
     LIMITS = RESOLVED_LIMITS,
     MIDDLE = RESOLVED_MIDDLE,
     NAMED = 3,
+    SLANTED_NAMED = 4,
     DIGITS_BOUND = 2,
     DIGITS_Z = 6,
     DIGITS_FOV = 4
@@ -45,6 +47,8 @@ typedef struct compared {
     double separation[DEPTHS]; /* NaN where the depth is not in the range of the set-up */
     double uncertain;          /* the first of these, before far, behind which nothing is certain; NaN: none */
     double up_to[LIMITS];      /* NaN: not even at near */
+    dp_setup assumed;          /* at any slant, see each_setup.h */
+    double slanted_to;         /* how far the middle limit goes there; NaN: not even at near, or nothing is known */
     uint64_t bytes;
 } compared;
 
@@ -77,6 +81,11 @@ static void compute_row(const comparison *c, compared *r) {
     resolved_up_to(&full, r->unit, r->up_to);
     for (size_t i = 0; i < LIMITS; i++)
         r->up_to[i] = unit_convert(r->up_to[i], r->unit, unit);
+    r->slanted_to = (double)NAN;
+    if (r->assumed.spec.triangles.width > 0)
+        r->slanted_to = unit_convert(distance_about(&r->assumed, r->assumed.spec.znear, r->assumed.spec.zfar,
+                                                    resolved_limit(MIDDLE, r->unit), RESOLVED_DIGITS),
+                                     r->unit, unit);
 }
 
 /* Sorts what was asked for first, then by how far it goes, how close it comes and how cheap it is. */
@@ -145,7 +154,40 @@ static number_text at_a_slant(const comparison *c) {
     number_text out = {""};
     if (t->width > 0)
         append(out.text, sizeof out.text, " at %s", slant_words(t).text);
+    else
+        append(out.text, sizeof out.text, " " SLANT_FACING);
     return out;
+}
+
+/* The next of them at any slant, behind one that reaches `from`, the first where two reach as far; null: no more. */
+static const compared *next_slanted(const comparison *c, const compared *last) {
+    const compared *next = NULL;
+    for (const compared *r = c->rows; r < c->rows + c->each->all.count; r++) {
+        const bool behind =
+            last == NULL || r->slanted_to < last->slanted_to || (r->slanted_to == last->slanted_to && r > last);
+        if (!isnan(r->slanted_to) && behind && (next == NULL || r->slanted_to > next->slanted_to))
+            next = r;
+    }
+    return next;
+}
+
+/* What the table, which is of surfaces that face the camera, comes to at any slant. */
+static void say_slanted(page *p, const comparison *c, const char *limit) {
+    char said[512] = "", view[SLANT_ASSUMED_SIZE] = "presets' views", text[RESOLVED_TEXT_SIZE];
+    const compared *of = c->rows, *r = NULL;
+    while (of < c->rows + c->each->all.count && of->assumed.spec.triangles.width == 0)
+        of++;
+    if (of == c->rows + c->each->all.count)
+        return;
+    if (c->o->camera.preset_count < 2)
+        slant_assumed(&of->assumed.spec.triangles, view);
+    for (size_t i = 0; i < SLANTED_NAMED && (r = next_slanted(c, r)) != NULL; i++)
+        append(said, sizeof said, "%s %s up to %s", *said != '\0' ? "," : "", r->name,
+               resolved_text(r->zfar, r->slanted_to, c->o->camera.lengths.unit, text));
+    if (*said != '\0')
+        page_text(p, "At any slant (%s) %s is resolved by%s.", view, limit, said);
+    else
+        page_text(p, "At any slant (%s) none is guaranteed to resolve %s, even at the near plane.", view, limit);
 }
 
 static void say_farthest(page *p, const comparison *c, const char *limit) {
@@ -159,7 +201,7 @@ static void say_farthest(page *p, const comparison *c, const char *limit) {
     for (size_t i = 0; i < all && i < NAMED; i++)
         append(names, sizeof names, "%s%s", i == 0 ? "" : i + 1 == all ? " and " : ", ", c->rows[i].name);
     if (all > NAMED)
-        append(names, sizeof names, " and %zu others", all - NAMED);
+        append(names, sizeof names, " and %zu other%s", all - NAMED, all - NAMED == 1 ? "" : "s");
     if (c->bounded == 0 || isnan(best->up_to[MIDDLE]))
         page_text(p, "None of these is guaranteed to resolve %s%s, even at the near plane.", limit, slant);
     else if (all == 0)
@@ -240,6 +282,7 @@ static void say_notes(page *p, void *item) {
     bool linear = false;
     output_char(p->out, '\n');
     say_farthest(p, c, limit.text);
+    say_slanted(p, c, limit.text);
     say_reversing(p, c, limit.text);
     for (size_t i = c->bounded; i < c->each->all.count; i++)
         say_facing(p, c, &c->rows[i], limit.text);
@@ -261,7 +304,8 @@ static void say_notes(page *p, void *item) {
         }
     depth24plus_say(p, &c->o->camera);
     say_uncertain(p, c);
-    page_text(p, "%s--full prints codes, errors, intervals, worst cases.",
+    page_text(p, "%s%s--full prints codes, errors, intervals, worst cases.",
+              c->o->camera.triangles.width == 0 ? "Facing the camera: " SLANT_AS_WALL ". " : "",
               c->limit_end - c->limit_begin == LIMITS && c->bounded > 0 ? "B: bytes a pixel. " : "");
 }
 
@@ -297,7 +341,7 @@ static void say_cameras(page *p, const comparison *c) {
 
 static void say_head(page *p, void *item) {
     static const char *const above_limits[LIMITS + 1] = {"", "to z", "up to z", "resolved up to z"};
-    static const char *const above_depths[3][3] = {{"guaranteed separation at z", "guaranteed at z", "guaranteed"},
+    static const char *const above_depths[3][3] = {{"guaranteed facing, at z", "facing, at z", "facing"},
                                                    {"guaranteed at any slant, z", "any slant, at z", "any slant"},
                                                    {"guaranteed at that slant, z", "that slant, at z", "that slant"}};
     const comparison *c = item;
@@ -380,6 +424,7 @@ static void compare_setup(comparison *c, size_t i) {
         .zfar = unit_convert(c->each->setup->spec.zfar, c->each->here->lengths.unit, o->camera.lengths.unit),
         .fov_y = c->each->here->triangles.fov_y,
         .unbounded = slanted && dp_mapping_get(mapping)->curve != DP_CURVE_PERSPECTIVE,
+        .assumed = c->each->assumed,
         .cost = cost_of(&c->each->setup->spec.format, mapping)};
     char label[SETUP_LABEL_SIZE];
     const raster_row *raster = c->each->here->raster;

@@ -336,11 +336,26 @@ static void arrange(solve_report *r) {
         qsort(r->items + 1, r->count - 1, sizeof r->items[0], compare_alternatives);
 }
 
+/* What each is at any slant, where it is of guaranteed separations and nobody gave a viewport. */
+static void add_slanted(solve_report *r) {
+    for (size_t i = 0; i < r->count; i++) {
+        const solve_candidate *c = &r->items[i];
+        solve_candidate *s = &r->slanted[i];
+        *s = *c;
+        s->solved = false;
+        s->spec.triangles.width = 0;
+        if (r->kind == QUANTITY_SEPARATION && c->spec.model == DP_MODEL_FLOAT &&
+            camera_assumed(&r->o->camera.said, &c->spec, &s->spec) &&
+            (c->solved ? solve_plane(r, s, c->unknown) : evaluate(r, s)) != DP_OK)
+            s->spec.triangles.width = 0;
+    }
+}
+
 int cmd_solve(void *request) {
     const solve_request *o = request;
     output out;
-    solve_candidate items[SOLVE_CANDIDATES_MAX];
-    solve_report r = {.o = o, .items = items};
+    solve_candidate items[SOLVE_CANDIDATES_MAX], slanted[SOLVE_CANDIDATES_MAX];
+    solve_report r = {.o = o, .items = items, .slanted = slanted};
     if (o->target == SOLVE_FOR_FRUSTA)
         return solve_frusta(o);
     int status = setup_decided(&o->camera);
@@ -360,6 +375,7 @@ int cmd_solve(void *request) {
     if (status != EXIT_FINE)
         return status;
     arrange(&r);
+    add_slanted(&r);
     solve_look_beyond(&r);
     status = output_start(&o->out, &o->camera, &out);
     if (status != EXIT_FINE)

@@ -14,6 +14,14 @@ typedef struct plane_fields {
     bool proven, certain;
 } plane_fields;
 
+/* The same question answered of surfaces at any slant, in the view that is assumed. */
+typedef struct any_slant {
+    solve_candidate found;
+    dp_triangles view;
+    double plane, distance; /* NaN where there is none */
+    const double *near, *far;
+} any_slant;
+
 /* The findings about a candidate; parts that are not asked for or do not exist are null. */
 typedef struct candidate {
     solve_candidate found;
@@ -24,7 +32,9 @@ typedef struct candidate {
     const plane_fields *plane;                /* where one was found */
     const double *lattice_near, *lattice_far; /* where it was solved for */
     double distance, lattice_distance;        /* NaN where it does not hold at all */
-    char plane_text[NUMBER_SIZE], ideal_text[NUMBER_SIZE];
+    char plane_text[NUMBER_SIZE], ideal_text[NUMBER_SIZE], slanted_text[NUMBER_SIZE];
+    any_slant slanted_too;
+    const any_slant *assumed; /* null where no view is */
     const char *role;
     double from, to;
 } candidate;
@@ -37,6 +47,16 @@ typedef struct solving {
     dp_setup setup;                /* of the candidate: the answer, or the one at hand */
     candidate candidate;
 } solving;
+
+static void take_slanted(candidate *x, const solve_candidate *c) {
+    any_slant *a = &x->slanted_too;
+    *a = (any_slant){.found = *c,
+                     .view = c->spec.triangles,
+                     .plane = c->possible ? c->plane.value : (double)NAN,
+                     .distance = c->possible ? c->distance.value : (double)NAN};
+    *(c->unknown == SOLVE_NEAR ? &a->near : &a->far) = c->solved ? &a->plane : NULL;
+    x->assumed = c->spec.triangles.width > 0 ? a : NULL;
+}
 
 static void take_candidate(solving *s, const solve_candidate *c) {
     candidate *x = &s->candidate;
@@ -51,6 +71,7 @@ static void take_candidate(solving *s, const solve_candidate *c) {
                                .certain = c->plane.certain};
     x->plane = c->solved ? &x->fields : NULL;
     *(c->unknown == SOLVE_NEAR ? &x->lattice_near : &x->lattice_far) = c->solved ? &x->found.lattice.value : NULL;
+    take_slanted(x, &s->report.slanted[c - s->report.items]);
     s->setup = (dp_setup){.spec = c->spec};
     x->setup = setup_fields_asked(&s->setup, &s->report.o->camera);
     x->model = option_word("model", c->spec.model);
@@ -58,22 +79,33 @@ static void take_candidate(solving *s, const solve_candidate *c) {
 
 /* ---- The table of alternatives ----------------------------------------------------------------------------------- */
 
-/* Its plane or distance, or what it reaches; and the same in the lattice. */
-static void write_cells(const solve_report *r, candidate *x) {
-    const solve_candidate *c = &x->found;
-    const bool by_plane = r->target == SOLVE_FOR_NEAR || r->target == SOLVE_FOR_FAR || r->target == SOLVE_FOR_DISTANCE;
-    const double ideal = by_plane ? c->lattice.value : c->lattice.reached.value;
-    const bool upward = !by_plane || r->target == SOLVE_FOR_NEAR;
-    number_text plane = {"none"}, lattice = {"none"};
+/* Its plane or distance; "none" where there is none. */
+static number_text plane_cell(const solve_report *r, const solve_candidate *c) {
+    number_text plane = {"none"};
     if (c->possible && r->target == SOLVE_FOR_DISTANCE)
         plane = number_down(c->distance.value, SOLVE_DIGITS);
     else if (c->possible && c->solved)
         plane = solve_safe_digits(r, c, solve_plane_of(c), c->plane.until);
     else if (c->possible)
         plane = number_of(r->target == SOLVE_FOR_FAR ? c->spec.zfar : c->spec.znear, SOLVE_DIGITS);
+    return plane;
+}
+
+/* Its plane or distance, or what it reaches; and the same in the lattice, and at any slant. */
+static void write_cells(const solve_report *r, candidate *x) {
+    const solve_candidate *c = &x->found;
+    const bool by_plane = r->target == SOLVE_FOR_NEAR || r->target == SOLVE_FOR_FAR || r->target == SOLVE_FOR_DISTANCE;
+    const double ideal = by_plane ? c->lattice.value : c->lattice.reached.value;
+    const bool upward = !by_plane || r->target == SOLVE_FOR_NEAR;
+    number_text lattice = {"none"};
     if (c->lattice.possible || !by_plane)
         lattice = upward ? number_up(ideal, SOLVE_DIGITS) : number_down(ideal, SOLVE_DIGITS);
-    strcpy(x->plane_text, plane.text);
+    strcpy(x->plane_text, plane_cell(r, c).text);
+    number_text slanted = {"none"};
+    if (x->assumed != NULL)
+        slanted = r->target == SOLVE_FOR_SEPARATION ? number_up(x->assumed->found.reached.value, SOLVE_DIGITS)
+                                                    : plane_cell(r, &x->assumed->found);
+    strcpy(x->slanted_text, slanted.text);
     strcpy(x->ideal_text, lattice.text);
 }
 
@@ -143,7 +175,15 @@ static void *next_line(void *of, size_t i) {
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
 
-enum { OF_SEPARATION = 1, OF_OTHERS = 2, OF_DISTANCE = 4, WITH_TRIANGLES = 8 };
+enum {
+    OF_SEPARATION = 1,
+    OF_OTHERS = 2,
+    OF_DISTANCE = 4,
+    WITH_TRIANGLES = 8,
+    WITH_ASSUMED = 16,
+    WITH_MODELS = 32,
+    NO_DISTANCE = 64
+};
 
 static const column plane_columns[] = {{FIELD(plane_fields, until, "until", "scene")},
                                        {FIELD(plane_fields, proven, "proven", "")},
@@ -175,11 +215,27 @@ static const column fight_columns[] = {{FIELD(solve_fight, first, "first", "scen
                                        {FIELD(solve_fight, searched, "searched_to", "scene")},
                                        {.kind = COLUMN_END}};
 
+/* The model is told where it is not the same of all, or nothing is told of slants. */
 static unsigned conditions(const solve_report *r) {
+    bool assumed = false, alike = true;
+    for (size_t i = 0; i < r->count; i++) {
+        assumed = assumed || r->slanted[i].spec.triangles.width > 0;
+        alike = alike && r->items[i].spec.model == r->items[0].spec.model;
+    }
     return (r->target == SOLVE_FOR_SEPARATION ? OF_SEPARATION : OF_OTHERS) |
-           (r->target == SOLVE_FOR_DISTANCE ? OF_DISTANCE : 0) |
-           (r->o->camera.triangles.width > 0 ? WITH_TRIANGLES : 0);
+           (r->target == SOLVE_FOR_DISTANCE ? OF_DISTANCE : NO_DISTANCE) |
+           (r->o->camera.triangles.width > 0 ? WITH_TRIANGLES : 0) | (assumed ? WITH_ASSUMED : 0) |
+           (assumed && alike ? 0 : WITH_MODELS);
 }
+
+static const column any_columns[] = {{PART(any_slant, view, NULL, slant_view_columns)},
+                                     {FIELD(any_slant, found.possible, "possible", "")},
+                                     {FIELD(any_slant, near, "near", "scene"), .optional = true},
+                                     {FIELD(any_slant, far, "far", "scene"), .optional = true},
+                                     {FIELD(any_slant, distance, "distance", "scene"), .when = OF_DISTANCE},
+                                     {FIELD(any_slant, found.reached.value, "separation", "scene")},
+                                     {FIELD(any_slant, found.reached.z, "z", "scene"), .when = NO_DISTANCE},
+                                     {.kind = COLUMN_END}};
 
 /* Writes the report; the quantities measured and solved for name columns. */
 void solve_report_write(const solve_report *r, output *out) {
@@ -203,6 +259,7 @@ void solve_report_write(const solve_report *r, output *out) {
                             {FIELD(candidate, found.distance.throughout, "throughout", ""), .when = OF_DISTANCE},
                             {FIELD(candidate, found.distance.fails, "fails_from", "scene"), .when = OF_DISTANCE},
                             {GROUP("lattice", lattice)},
+                            {PART(candidate, assumed, "any_slant", any_columns), .pointed = true, .optional = true},
                             {FIELD(candidate, found.price.bytes, "bytes", "")},
                             {FIELD(candidate, found.price.available, "available", "")},
                             {FIELD(candidate, found.price.caution, "caution", "")},
@@ -211,13 +268,15 @@ void solve_report_write(const solve_report *r, output *out) {
     const column beside[] = {
         {TEXT_FIELD(candidate, setup.format, "format", -9, 0)},
         {TEXT_FIELD(candidate, setup.mapping, "mapping", -12, 0)},
-        {TEXT_FIELD(candidate, model, "model", -6, 0)},
-        {TEXT_FIELD(candidate, plane_text, heads[r->target], 13, 0), .when = OF_OTHERS},
-        {TEXT_FIELD(candidate, ideal_text, "lattice", 13, 0), .when = OF_OTHERS},
-        {TEXT_FIELD(candidate, found.reached.value, s.measure, 13, SOLVE_DIGITS), .upward = true},
-        {TEXT_FIELD(candidate, ideal_text, "lattice", 13, 0), .when = OF_SEPARATION},
+        {TEXT_FIELD(candidate, model, "model", -6, 0), .when = WITH_MODELS, .spare = 1},
+        {TEXT_FIELD(candidate, plane_text, heads[r->target], 12, 0), .when = OF_OTHERS},
+        {TEXT_FIELD(candidate, slanted_text, "any slant", 12, 0), .when = OF_OTHERS | WITH_ASSUMED},
+        {TEXT_FIELD(candidate, ideal_text, "lattice", 12, 0), .when = OF_OTHERS},
+        {TEXT_FIELD(candidate, found.reached.value, s.measure, 12, SOLVE_DIGITS), .upward = true},
+        {TEXT_FIELD(candidate, slanted_text, "any slant", 12, 0), .when = OF_SEPARATION | WITH_ASSUMED},
+        {TEXT_FIELD(candidate, ideal_text, "lattice", 12, 0), .when = OF_SEPARATION},
         {TEXT_FIELD(candidate, found.price.bytes, "bytes", 7, 0), .when = OF_OTHERS},
-        {TEXT_FIELD(candidate, found.price.available, "availability", -42, 0), .when = OF_OTHERS, .spare = 1},
+        {TEXT_FIELD(candidate, found.price.available, "availability", -42, 0), .when = OF_OTHERS, .spare = 2},
         {.kind = COLUMN_END}};
     const column columns[] = {
         {FIELD(solving, target, "for", ""), .only = AS_JSON},

@@ -2,8 +2,10 @@
 /* solve --for frusta: how few frusta, one behind the other, keep a separation everywhere; and where their planes lie.
  */
 #include <math.h>
+#include <stdio.h>
 
 #include "camera/cmd/setups.h"
+#include "camera/cmd/slant.h"
 #include "solve/cmd_solve/report.h"
 #include "solve/cmd_solve/request.h"
 #include "solve/frusta.h"
@@ -22,6 +24,8 @@ typedef struct planning {
     frusta_plan plan, fixed;
     uint64_t count, at_least, fixed_count; /* fixed_count is 0 where there is no such plan */
     double limit, ratio, fixed_value, fixed_z, stuck;
+    double slanted;  /* how many at any slant; 0: no plan was found; NaN: nothing is guaranteed, or the lattice asked */
+    dp_spec assumed; /* in which view that is */
     bool possible;
     const char *target;
     frustum_line line;
@@ -94,7 +98,13 @@ static void say_plan(page *p, void *item) {
                       near = camera_length(&x->o->camera, spec->znear, 0),
                       far = camera_length(&x->o->camera, spec->zfar, 0);
     const char *format = spec->format.name, *mapping = dp_mapping_get(spec->mapping)->name;
+    const char *const facing = isnan(x->slanted) ? "" : " " SLANT_FACING;
     const unsigned long long count = x->count, at_least = x->at_least;
+    char slanted[NUMBER_SIZE] = "", view[SLANT_ASSUMED_SIZE];
+    if (x->slanted > 0.0)
+        snprintf(slanted, sizeof slanted, "; at any slant %.0f do%s", x->slanted, x->slanted == 1.0 ? "es" : "");
+    else if (x->slanted == 0.0)
+        snprintf(slanted, sizeof slanted, "; at any slant none do");
     if (!x->possible && x->plan.count == FRUSTA_MAX)
         page_text(p, "No plan: %d frusta of %s %s do not suffice to resolve %s from z = %s to %s.", FRUSTA_MAX, format,
                   mapping, limit.text, near.text, far.text);
@@ -102,11 +112,12 @@ static void say_plan(page *p, void *item) {
         page_text(p, "No plan was found: up to far %s no near plane of those searched lets %s %s resolve %s.",
                   number_in(number_full(x->stuck), unit).text, format, mapping, limit.text);
     else
-        page_text(p, "%llu %s of %s %s %s %s from z = %s to %s%s.", count, count == 1 ? "frustum" : "frusta", format,
-                  mapping, count == 1 ? "resolves" : "resolve", limit.text, near.text, far.text,
+        page_text(p, "%llu %s of %s %s %s %s%s from z = %s to %s%s%s.", count, count == 1 ? "frustum" : "frusta",
+                  format, mapping, count == 1 ? "resolves" : "resolve", limit.text, facing, near.text, far.text,
                   count == 1          ? ""
                   : count == at_least ? "; fewer cannot"
-                                      : "");
+                                      : "",
+                  slanted);
     if (x->possible && count != at_least && at_least > 1)
         page_note(p, "at least", "%llu frusta, whatever the arithmetic", at_least);
     say_why(p, x);
@@ -115,6 +126,8 @@ static void say_plan(page *p, void *item) {
                   x->fixed_count == 1 ? "frustum" : "frusta",
                   number_in(number_up(x->fixed_value, SOLVE_DIGITS), unit).text,
                   number_in(number_of(x->fixed_z, SOLVE_DIGITS), unit).text);
+    if (x->slanted >= 0.0)
+        page_note(p, "any slant", "of a viewport of %s", slant_assumed(&x->assumed.triangles, view));
     page_note(p, "model", "%s", option_word("model", spec->model));
     if (x->plan.count > 0)
         output_text(p->out, "\n");
@@ -141,11 +154,21 @@ static void write_plan(planning *x, output *out) {
                               {FIELD(planning, possible, "possible", ""), .only = AS_JSON},
                               {FIELD(planning, count, "count", ""), .only = AS_JSON},
                               {FIELD(planning, at_least, "at_least", ""), .only = AS_JSON},
+                              {FIELD(planning, slanted, "any_slant_count", ""), .only = AS_JSON},
                               {FIELD(planning, stuck, "stuck", "scene"), .only = AS_JSON},
                               {GROUP("fixed", fixed_columns), .only = AS_JSON},
                               {LIST("frusta", frustum_columns, next_frustum), .indent = 2},
                               {.kind = COLUMN_END}};
     report_write(&(report_spec){"solve", columns, x, .label = 15, .head = say_plan}, out, x->o->out.form);
+}
+
+/* How few at any slant. */
+static double count_slanted(planning *x, const dp_spec *spec) {
+    frusta_plan plan;
+    if (spec->model != DP_MODEL_FLOAT || !camera_assumed(&x->o->camera.said, spec, &x->assumed) ||
+        frusta_solve(&x->assumed, x->limit, &plan) != DP_OK)
+        return (double)NAN;
+    return plan.possible ? (double)plan.count : 0.0;
 }
 
 int solve_frusta(const solve_request *o) {
@@ -167,6 +190,7 @@ int solve_frusta(const solve_request *o) {
     x.possible = x.plan.possible;
     x.count = x.plan.count;
     x.stuck = x.plan.stuck;
+    x.slanted = count_slanted(&x, &spec);
     x.at_least = frusta_at_least(&spec, x.limit);
     if (frusta_by_ratio(&spec, fixed_ratio, &x.fixed) == DP_OK) {
         const frustum *worst = &x.fixed.frusta[x.fixed.worst];

@@ -30,7 +30,7 @@ double solve_in_binary32(const solve_report *r, const solve_candidate *c, bool s
                : (double)NAN;
 }
 
-enum { DIGITS_MOST = 17, UNITS = 8, PHRASES = 7 };
+enum { DIGITS_MOST = 17, UNITS = 8, PHRASES = 10 };
 
 /* ---- Numbers that keep what they promise, as they are printed ---------------------------------------------------- */
 
@@ -61,10 +61,11 @@ typedef struct told {
     const solve_report *report;
     const solve_candidate *answer;
     const char *target, *measure, *mapping, *ortho, *at_slant, *property, *manner, *model, *rounding, *effort, *paste;
-    number_text goal, wanted, best, from, to, facing, lattice_best, guaranteed, short_of;
+    const char *paste_slanted, *assumed;
+    number_text goal, wanted, best, from, to, facing, lattice_best, guaranteed, short_of, slanted;
     double plane, throughout;
-    const char *given, *goals, *fight, *ideal; /* phrases */
-    char text[PHRASES][SENTENCE_SIZE];         /* of phrases */
+    const char *given, *goals, *fight, *ideal, *slants; /* phrases */
+    char text[PHRASES][SENTENCE_SIZE];                  /* of phrases */
 } told;
 
 static const column asked_columns[] = {
@@ -96,6 +97,7 @@ static const column told_columns[] = {
     LENGTH(told, throughout, 0), NUMBER(told, goal), NUMBER(told, wanted), NUMBER(told, best), NUMBER(told, from),
     NUMBER(told, to), NUMBER(told, facing), NUMBER(told, lattice_best), NUMBER(told, guaranteed),
     NUMBER(told, short_of), WORD(told, given), WORD(told, goals), WORD(told, fight), WORD(told, ideal),
+    WORD(told, slants), NUMBER(told, slanted), WORD(told, assumed), WORD(told, paste_slanted),
     {.kind = COLUMN_END}};
 /* clang-format on */
 
@@ -104,6 +106,7 @@ enum { OF_DISTANCE = 1, OF_NEAR = 2, OF_FAR = 4, OF_ERROR = 8, OVER_RANGE = 16 }
 enum { POSSIBLE = 32, SOLVED = 64, AS_IT_IS = 128, IS_NEAR = 256, CERTAIN = 512, UNCERTAIN = 1024, ANY_PASSES = 2048 };
 enum { UNBOUNDED = 1 << 12, CHEAPEST = 1 << 13, ALONE = 1 << 14, EXACT = 1 << 15, NOT_IDEAL = 1 << 16 };
 enum { NO_NEAR = 1 << 17, NO_FAR = 1 << 18, BESIDE = 1 << 19, NOT_ENOUGH = 1 << 20, NOTHING_SAFE = 1 << 21 };
+enum { FACING = 1 << 22, ASSUMED = 1 << 23, HOLDS_SLANTED = 1 << 24 };
 
 static const sentence given_words[] = {PROSE("{format} {mapping}{ortho}, far {far},", OF_NEAR),
                                        ELSE("{format} {mapping}{ortho}, near {near},", OF_FAR),
@@ -123,20 +126,29 @@ static const sentence fight_words[] = {PROSE("; first found to z-fight at z = {f
 static const sentence ideal_words[] = {PROSE("", EXACT), ELSE("; nor in the lattice", NOT_IDEAL),
                                        ELSE("; in the lattice up to {ideal_most}", 0), SENTENCE_END};
 
+/* Behind what holds facing the camera: what does at any slant. */
+static const sentence slants_words[] = {
+    PROSE("; at any slant up to z = {slanted}", POSSIBLE | FACING | ASSUMED | HOLDS_SLANTED | OF_DISTANCE),
+    ELSE("; at any slant nowhere", POSSIBLE | FACING | ASSUMED | OF_DISTANCE),
+    ELSE("; at any slant {target} {slanted} does", POSSIBLE | FACING | ASSUMED | HOLDS_SLANTED | SOLVED),
+    ELSE("; at any slant no {target} does", POSSIBLE | FACING | ASSUMED | SOLVED),
+    ELSE("; at any slant {slanted}", POSSIBLE | FACING | ASSUMED),
+    ELSE("; at a slant nothing is guaranteed", POSSIBLE | FACING),
+    SENTENCE_END};
+
 static const sentence answer_words[] = {
-    PROSE("{given}: {property} {limit}{at_slant} {manner} from z = {lo} up to z = {throughout}{fight}{ideal}.",
+    PROSE("{given}: {property} {limit}{at_slant} {manner} from z = {lo} up to z = {throughout}{slants}{fight}{ideal}.",
           OF_DISTANCE | POSSIBLE),
-    ELSE("{given}: {property} {limit}{at_slant} {manner} from z = {lo} up to z = {up_to}{fight}{ideal}.",
+    ELSE("{given}: {property} {limit}{at_slant} {manner} from z = {lo} up to z = {up_to}{slants}{fight}{ideal}.",
          OF_DISTANCE | POSSIBLE),
     ELSE("Impossible: {given}: {property} {limit}{at_slant} {manner} even at z = {lo}{fight}{ideal}.", OF_DISTANCE),
-    ELSE("{given} {goals}, the cheapest that does.", POSSIBLE | AS_IT_IS | CHEAPEST),
-    ELSE("{given} {goals}.", POSSIBLE | AS_IT_IS),
-    ELSE("Near {from} suffices for {given} to {goals}, and so does any larger one up to {to}.",
-         POSSIBLE | UNCERTAIN | IS_NEAR),
-    ELSE("Far {to} suffices for {given} to {goals}, and so does any smaller one down to {from}.", POSSIBLE | UNCERTAIN),
-    ELSE("Any {target} from {from} to {to} suffices for {given} to {goals}.", POSSIBLE | ANY_PASSES),
-    ELSE("Near must be at least {from} for {given} to {goals}.", POSSIBLE | IS_NEAR),
-    ELSE("Far may be at most {to} for {given} to {goals}.", POSSIBLE),
+    ELSE("{given} {goals}, the cheapest that does{slants}.", POSSIBLE | AS_IT_IS | CHEAPEST),
+    ELSE("{given} {goals}{slants}.", POSSIBLE | AS_IT_IS),
+    ELSE("Near {from} suffices for {given} to {goals}{slants}.", POSSIBLE | UNCERTAIN | IS_NEAR),
+    ELSE("Far {to} suffices for {given} to {goals}{slants}.", POSSIBLE | UNCERTAIN),
+    ELSE("Any {target} from {from} to {to} suffices for {given} to {goals}{slants}.", POSSIBLE | ANY_PASSES),
+    ELSE("Near must be at least {from} for {given} to {goals}{slants}.", POSSIBLE | IS_NEAR),
+    ELSE("Far may be at most {to} for {given} to {goals}{slants}.", POSSIBLE),
     ELSE("Impossible: {given} has no {target} that {goals}: nothing farther is guaranteed to be resolved.", UNBOUNDED),
     ELSE("Impossible: with this near and far no {target} {goals}; {given} comes nearest, with {best}.", AS_IT_IS),
     ELSE("Impossible: no {target} of {given} {goals}; {target} {plane:6} comes near, with {best}.", CERTAIN),
@@ -151,11 +163,14 @@ static const sentence note_words[] = {
     ELSE("{plane} exactly; a smaller one may suffice", SOLVED | POSSIBLE | IS_NEAR),
     ELSE("{plane} exactly; a larger one may suffice", SOLVED | POSSIBLE),
     NOTE("to write", "{paste}", SOLVED | POSSIBLE | IS_NEAR),
+    NOTE("", "{paste_slanted} at any slant", 0),
     NOTE("passes", "every {target} from {from} to {to}", SOLVED | POSSIBLE),
     NOTE("{measure}", "{best} at z = {z_down}, wanted {wanted}", OF_DISTANCE),
     ELSE("{best} at z = {z}, wanted {wanted}", 0),
     ELSE("{best} at z = {z}", 0),
     NOTE("facing", "{facing} there", 0),
+    ELSE("the camera, " SLANT_AS_WALL, FACING),
+    NOTE("any slant", "of a viewport of {assumed}", 0),
     NOTE("model", "{model}", 0),
     NOTE("rounding", "{rounding}", 0),
     NOTE("cost", "{effort}", 0),
@@ -170,6 +185,12 @@ static const sentence note_words[] = {
 
 static bool is_slanted(const solve_report *r) {
     return r->o->camera.triangles.width > 0;
+}
+
+/* Of guaranteed separations, without a viewport: and what of them is at any slant stands beside it, if anything. */
+static bool is_facing(const solve_report *r, const solve_candidate *c) {
+    const bool computed = dp_mapping_get(c->spec.mapping)->curve == DP_CURVE_PERSPECTIVE;
+    return r->kind == QUANTITY_SEPARATION && !is_slanted(r) && (c->spec.model == DP_MODEL_FLOAT || !computed);
 }
 
 /* The measured value in the unit of the one wanted, and that beside it. */
@@ -221,7 +242,8 @@ static unsigned conditions(const solve_report *r, const solve_candidate *c, doub
            (nobody_gave(r, "near", SOLVE_FOR_NEAR) ? NO_NEAR : 0) |
            (nobody_gave(r, "far", SOLVE_FOR_FAR) ? NO_FAR : 0) |
            (!distance && c->spec.model != DP_MODEL_EXACT ? BESIDE : 0) | (isinf(binary32) ? NOTHING_SAFE : 0) |
-           (binary32 > r->limit * (1.0 + 1e-6) ? NOT_ENOUGH : 0);
+           (binary32 > r->limit * (1.0 + 1e-6) ? NOT_ENOUGH : 0) | (is_facing(r, c) ? FACING : 0) |
+           (r->slanted->spec.triangles.width > 0 ? ASSUMED : 0) | (r->slanted->possible ? HOLDS_SLANTED : 0);
 }
 
 /* The model, and why it is not the fullest that there is. */
@@ -267,6 +289,22 @@ static void tell_numbers(const solve_report *r, const solve_candidate *c, double
     }
 }
 
+/* The same question answered of surfaces at any slant: a plane, a depth, or the separation that is reached. */
+static void tell_slanted(const solve_report *r, told *t) {
+    const solve_candidate *s = r->slanted;
+    const double up_to = s->distance.value;
+    for (size_t i = 0; i < r->count && t->assumed == NULL; i++)
+        if (r->slanted[i].spec.triangles.width > 0)
+            t->assumed = slant_assumed(&r->slanted[i].spec.triangles, t->text[7]);
+    if (r->target == SOLVE_FOR_DISTANCE && s->possible)
+        t->slanted = s->distance.throughout ? camera_length(&r->o->camera, up_to, 0)
+                                            : number_in(number_down(up_to, SOLVE_DIGITS), camera_unit(&r->o->camera));
+    else if (s->solved && s->possible)
+        t->slanted = passing(r, s, solve_plane_of(s), s->plane.until);
+    else
+        t->slanted = isinf(s->reached.value) ? (number_text){"nothing"} : measured(r, s->reached.value);
+}
+
 /* The engine's code for the number that the first sentence says. */
 static const char *paste_of(const solve_report *r, const solve_candidate *c, char out[SENTENCE_SIZE]) {
     const paste of = {r->o->camera.preset_count == 1 ? r->o->camera.presets[0] : NULL, r->o->camera.lengths.unit};
@@ -293,7 +331,9 @@ void solve_report_answer(page *p, void *item) {
               .measure = solve_measure_name(r),
               .mapping = mapping->name,
               .ortho = c->spec.ortho ? " orthographic" : "",
-              .at_slant = "",
+              .at_slant = !is_facing(r, c)                                 ? ""
+                          : c->possible || r->target == SOLVE_FOR_DISTANCE ? " " SLANT_FACING
+                                                                           : " even " SLANT_FACING,
               .property = r->kind == QUANTITY_ERROR ? "an error within" : "a separation of",
               .manner = manners[c->spec.model][c->possible],
               .rounding = c->spec.rounding != DP_ROUND_NEAREST ? dp_rounding_name(c->spec.rounding) : NULL,
@@ -305,12 +345,15 @@ void solve_report_answer(page *p, void *item) {
     }
     camera_page(p, &r->o->camera);
     tell_numbers(r, c, binary32, &t);
+    tell_slanted(r, &t);
     t.model = model_words(r, c, t.text[1]);
     t.paste = paste_of(r, c, t.text[PHRASES - 1]);
+    t.paste_slanted = r->slanted->spec.triangles.width > 0 ? paste_of(r, r->slanted, t.text[PHRASES - 2]) : NULL;
     t.given = sentence_first(p, given_words, told_columns, &t, when, t.text[2]);
     t.goals = sentence_first(p, goal_words, told_columns, &t, when, t.text[3]);
     t.fight = sentence_first(p, fight_words, told_columns, &t, when, t.text[4]);
     t.ideal = sentence_first(p, ideal_words, told_columns, &t, when, t.text[5]);
+    t.slants = sentence_first(p, slants_words, told_columns, &t, when, t.text[6]);
     page_say(p, answer_words, told_columns, &t, when);
     solve_say_beyond(p, r);
     page_say(p, note_words, told_columns, &t, when);

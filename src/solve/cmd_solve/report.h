@@ -48,9 +48,11 @@ typedef struct solve_report {
     quantity_kind kind;
     double limit; /**< NaN when what is reached is asked */
     double lo, hi;
-    size_t count;           /**< at least 1 */
-    solve_candidate *items; /**< the answer first, then the alternatives, best first */
-    solve_fight fight;      /**< of the answer, where a distance is solved for */
+    size_t count;             /**< at least 1 */
+    solve_candidate *items;   /**< the answer first, then the alternatives, best first */
+    solve_candidate *slanted; /**< each of them at any slant, see camera_assumed(); without a viewport: nothing is
+                                   guaranteed there */
+    solve_fight fight;        /**< of the answer, where a distance is solved for */
     size_t again_count;
     distance_span again[SOLVE_AGAIN_MAX]; /**< where it holds again beyond that distance */
 } solve_report;
