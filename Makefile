@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # depthprec: `make demo` shows it, `make help` lists the rest.
+define another_make
+.error this is not GNU make: on this system it is called gmake
+endef
 
 CONF ?= release                 # release, asan, coverage or fuzz; each has a build folder of its own
 CONF := $(strip $(CONF))
@@ -367,6 +370,7 @@ check:
 	@sh src/packages.sh check
 	@$(MAKE) $(PARALLEL) all check-programs
 	@B=$(B) CC='$(CC)' DEPTHPREC=$(CURDIR)/$(B)/depthprec sh tests/run.sh $(RUN_TESTS)
+	@sh src/packages.sh --left web npm docs probe
 
 check-programs: $(TEST_PROGRAMS)
 
@@ -515,31 +519,31 @@ D = $(DESTDIR)
 COMPLETIONS := bash-completion/completions/depthprec zsh/site-functions/_depthprec fish/vendor_completions.d/depthprec.fish
 
 install: all man
-	$(Q)$(INSTALL) -d $(D)$(bindir) $(D)$(libdir)/pkgconfig $(D)$(includedir)/depthprec
-	$(Q)$(INSTALL_PROGRAM) $(B)/depthprec $(D)$(bindir)/depthprec
-	$(Q)$(INSTALL_PROGRAM) $(B)/libdepthprec.so.0 $(D)$(libdir)/libdepthprec.so.0
-	$(Q)ln -sf libdepthprec.so.0 $(D)$(libdir)/libdepthprec.so
-	$(Q)$(INSTALL_DATA) $(B)/libdepthprec.a $(D)$(libdir)/libdepthprec.a
+	$(Q)$(INSTALL) -d "$(D)$(bindir)" "$(D)$(libdir)/pkgconfig" "$(D)$(includedir)/depthprec"
+	$(Q)$(INSTALL_PROGRAM) $(B)/depthprec "$(D)$(bindir)/depthprec"
+	$(Q)$(INSTALL_PROGRAM) $(B)/libdepthprec.so.0 "$(D)$(libdir)/libdepthprec.so.0"
+	$(Q)ln -sf libdepthprec.so.0 "$(D)$(libdir)/libdepthprec.so"
+	$(Q)$(INSTALL_DATA) $(B)/libdepthprec.a "$(D)$(libdir)/libdepthprec.a"
 	$(Q)sed -e 's|@prefix@|$(prefix)|' -e 's|@libdir@|$(libdir)|' -e 's|@includedir@|$(includedir)|' \
-	    -e 's|@version@|$(VERSION)|' src/depthprec.pc.in >$(D)$(libdir)/pkgconfig/depthprec.pc
-	$(Q)$(INSTALL_DATA) $(HEADERS) $(D)$(includedir)/depthprec
-	$(Q)for m in $(MAN); do s=$(D)$(mandir)/man$${m##*.}; $(INSTALL) -d $$s && $(INSTALL_DATA) $$m $$s || exit 1; done
-	$(Q)for f in $(COMPLETIONS); do $(INSTALL) -d $(D)$(datarootdir)/$${f%/*} && \
-	    $(B)/depthprec completions $$(expr $$f : '\([a-z]*\)') >$(D)$(datarootdir)/$$f || exit 1; done
-	$(if $(wildcard $(B)/depthprec.html),$(Q)$(INSTALL) -d $(D)$(docdir) && $(INSTALL_DATA) $(B)/depthprec.html $(D)$(docdir))
-	$(if $(D),,@sh src/loader.sh $(libdir))
+	    -e 's|@version@|$(VERSION)|' src/depthprec.pc.in >"$(D)$(libdir)/pkgconfig/depthprec.pc"
+	$(Q)$(INSTALL_DATA) $(HEADERS) "$(D)$(includedir)/depthprec"
+	$(Q)for m in $(MAN); do s="$(D)$(mandir)/man$${m##*.}"; $(INSTALL) -d "$$s" && $(INSTALL_DATA) $$m "$$s" || exit 1; done
+	$(Q)for f in $(COMPLETIONS); do $(INSTALL) -d "$(D)$(datarootdir)/$${f%/*}" && \
+	    $(B)/depthprec completions $$(expr $$f : '\([a-z]*\)') >"$(D)$(datarootdir)/$$f" || exit 1; done
+	$(if $(wildcard $(B)/depthprec.html),$(Q)$(INSTALL) -d "$(D)$(docdir)" && $(INSTALL_DATA) $(B)/depthprec.html "$(D)$(docdir)")
+	$(if $(D),,@sh src/loader.sh "$(libdir)")
 
 uninstall:
-	$(Q)rm -f $(D)$(bindir)/depthprec $(D)$(libdir)/libdepthprec.so.0 $(D)$(libdir)/libdepthprec.so \
-	    $(D)$(libdir)/libdepthprec.a $(D)$(libdir)/pkgconfig/depthprec.pc
-	$(Q)for m in $(notdir $(MAN)); do rm -f $(D)$(mandir)/man$${m##*.}/$$m; done
-	$(Q)rm -rf $(D)$(includedir)/depthprec
-	$(Q)rm -f $(D)$(docdir)/depthprec.html
-	$(Q)rm -f $(addprefix $(D)$(datarootdir)/,$(COMPLETIONS))
+	$(Q)rm -f "$(D)$(bindir)/depthprec" "$(D)$(libdir)/libdepthprec.so.0" "$(D)$(libdir)/libdepthprec.so" \
+	    "$(D)$(libdir)/libdepthprec.a" "$(D)$(libdir)/pkgconfig/depthprec.pc"
+	$(Q)for m in $(notdir $(MAN)); do rm -f "$(D)$(mandir)/man$${m##*.}/$$m"; done
+	$(Q)rm -rf "$(D)$(includedir)/depthprec"
+	$(Q)rm -f "$(D)$(docdir)/depthprec.html"
+	$(Q)for f in $(COMPLETIONS); do rm -f "$(D)$(datarootdir)/$$f"; done
 
 installcheck:
-	$(Q)$(D)$(bindir)/depthprec --version
-	$(Q)$(D)$(bindir)/depthprec table -n 0.1 -f 1000 -F unorm24 -m d3d --at 10 --csv | grep -q ',16611104,'
+	$(Q)"$(D)$(bindir)/depthprec" --version
+	$(Q)"$(D)$(bindir)/depthprec" table -n 0.1 -f 1000 -F unorm24 -m d3d --at 10 --csv | grep -q ',16611104,'
 
 # ---- The rest ----------------------------------------------------------------------------------------------------
 
@@ -569,8 +573,10 @@ help:
 	@sed -n 's/^## \{0,1\}//p' Makefile
 
 ## make demo        install what is missing, build, print the table of one camera and draw its figures
-## make             build the library and the program into build/
+## make             build the library and the program into build/: needs cairo, GSL, jansson, libpng and zlib. Of OpenEXR, TIFF,
+##                  assimp, Vulkan, EGL and GL it uses the headers that are here: tables and figures need none
 ## make check       install what is missing, build, run the tests: some 7 minutes on two cores
+##                  what is left out because a program is not here it names last, with what installs it
 ## make check-full  4 times the cases (DEPTHPREC_FULL=1000 in front of one test: all), and check-web, check-probe, cross,
 ##                  cross-windows and check-dist: hours, before a release (Debian)
 ## make check-baseline  the tests that know it, without AVX
@@ -603,6 +609,7 @@ help:
 ## make deb         Debian's source package and three packages in build/deb/, judged by lintian (Debian)
 ##
 ## CONF=release|asan|coverage|fuzz  V=1 shows the commands  CC, CFLAGS, CPPFLAGS, LDFLAGS as usual
+## B=FOLDER builds there, not in build/  JOBS=N as many at once  MINGW, WINDOWS_CC, WINDRES another mingw-w64  WEB_CC another clang
 ## WERROR=-Werror makes warnings errors
 
 -include $(B)/baseline/batch.d $(patsubst %.o,%.d,$(CORE_O) $(ROOMS_O) $(TESTS_O) $(SUPPORT_O) $(FUZZ_O) $(B)/obj/src/windows/fma.d $(PLAIN_O) $(WINDOWS_CORE_O) $(WINDOWS_O) $(WEB_CORE_O) $(WEB_O) $(NPM_O) $(NPM_DOOR_O) $(SAMPLES_O))

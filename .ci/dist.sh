@@ -39,9 +39,25 @@ docs = {os.path.relpath(os.path.join(folder, name), "build"): os.path.join(folde
         for folder, _, names in os.walk("build/docs") for name in names}
 pack("docs", docs)
 pack("windows-x86_64", docs | {os.path.basename(path): path for path in [
-    "build/windows/root/NOTICES.txt", "README.md", "CHANGELOG.md", *glob.glob("LICENSE*"),
+    "build/windows/root/NOTICES.txt", "CHANGELOG.md", "src/windows/depthprec-config.cmake", *glob.glob("LICENSE*"),
     *("build/windows/depthprec." + end for end in ("exe", "dll", "lib", "def"))]} |
-    {path: path for path in glob.glob("include/depthprec/*.h")})
+    {path: path for path in glob.glob("include/depthprec/*.h")} | {"README.md": "src/windows/archive.md"})
+END
+
+cat >"$out/README.txt" <<END
+depthprec $version: what to take
+
+depthprec-$version-windows-x86_64.zip   Windows: the program, a DLL, all pages. Its README.md says how to begin
+depthprec-$version.html                 any system: the page, in a browser, without a network
+depthprec_$version-*.deb                Debian, Ubuntu: the program. libdepthprec0 and libdepthprec-dev are the library
+depthprec-$version-py3-*.whl            Python on Linux: pip install FILE
+depthprec-$version.tgz                  node and browsers: npm install FILE
+depthprec-$version-docs.zip             all pages as HTML: the manual, the theory, the gallery
+depthprec-$version-source.tar.gz        the sources: make, make check, make install
+depthprec-$version.tar.gz               the sources as pip builds them
+depthprec_$version.orig.tar.gz, *.debian.tar.*, *.dsc   the sources as Debian builds them
+
+Whole? sha256sum -c SHA256SUMS, or in PowerShell: Get-FileHash FILE
 END
 
 cd "$out"

@@ -19,7 +19,8 @@ import sys
 
 import formulas
 
-READMES = ["README.md", "plots/README.md", "src/README.md", "tests/README.md", "src/python/README.md", "src/npm/README.md"]
+READMES = ["README.md", "plots/README.md", "src/README.md", "tests/README.md", "src/python/README.md",
+           "src/python/RECIPES.md", "src/npm/README.md"]
 SHOWN = [
     ("index.html", "Start"),
     ("man/depthprec-questions.7.html", "Questions"),
@@ -191,11 +192,11 @@ def manual(source):
 
 def readme(source):
     body = run("cmark-gfm", "-e", "table", "-t", "html", source)
-    body = re.sub(r'(href="[^"]*)README\.md', r"\1index.html", body)
+    body = re.sub(r'(href="[^"]*)README\.md', r"\1index.html", body).replace('href="RECIPES.md', 'href="RECIPES.html')
     title = plain(re.search(r"<h1>(.*?)</h1>", body)[1])
     # The first row of a table without headings is empty; a picture in a heading stays one.
     body = re.sub(r"<thead>\s*<tr>(?:\s*<th></th>)+\s*</tr>\s*</thead>", "", body)
-    return title, source.replace("README.md", "index.html"), body
+    return title, source.replace("README.md", "index.html").replace(".md", ".html"), body
 
 
 def main(build, folder):

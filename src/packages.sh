@@ -5,6 +5,7 @@
 # Silent and quick when nothing is missing, so that every `make` may call it.
 # packages.sh --missing JOB installs nothing: it names what is missing and the one command that installs it.
 # packages.sh --libraries JOB prints Debian's names of the libraries of a job.
+# packages.sh --left JOB... says in a line which of these jobs' tests are left out here, and what installs what they need.
 
 how=install
 case ${1-} in
@@ -13,6 +14,12 @@ case ${1-} in
     shift
     ;;
 esac
+if [ "$how" = left ]; then
+    left=
+    for job; do sh "$0" --missing "$job" >/dev/null 2>&1 || left="$left $job"; done
+    [ -z "$left" ] || echo "Left out, for want of programs: tests of$left. For each: sh src/packages.sh JOB; numpy: python3-numpy"
+    exit 0
+fi
 job=${1:-build}
 
 # job | how to see that it is there                   | Debian, Ubuntu        | Fedora             | Arch   ('-': not there, '+': done without)
@@ -35,6 +42,9 @@ check | library gmp                                   | libgmp-dev            | 
 check | library mpfr                                  | libmpfr-dev           | mpfr-devel         | mpfr
 check | library libxml-2.0                            | libxml2-dev           | libxml2-devel      | libxml2
 check | command mandoc                                | mandoc                | mandoc             | mandoc
+check | command groff                                 | groff-base            | groff-base         | groff
+check | command col                                   | bsdextrautils         | util-linux         | util-linux
+check | command python3                               | python3               | python3            | python
 check | command rsvg-convert                          | librsvg2-bin          | librsvg2-tools     | librsvg
 check | command g++                                   | g++                   | gcc-c++            | gcc
 check | command xmllint                               | libxml2-utils         | libxml2            | libxml2

@@ -22,10 +22,26 @@ check "the source archive" has "depthprec-$version-source.tar.gz" tar -tzf <<END
 depthprec-$version/Makefile
 depthprec-$version/CHANGELOG.md
 END
+told() { # each file is told of in README.txt, by its name or a pattern there
+    sed -n 's/   .*//; s/, / /g; /^[*a-z]/p' "$one/README.txt" >"$scratch/told" && [ "$(wc -l <"$scratch/told")" -ge 9 ] || return
+    (cd "$one" && for file in *; do
+        case $file in README.txt | SHA256SUMS | lib*.deb) continue ;; esac
+        for word in $(set -f && cat "$scratch/told"); do case $file in $word) continue 2 ;; esac; done
+        echo "$file is not told of"
+    done) | lines .
+}
+check "README.txt says which is which" empty told
+pictures() { # what the README of Windows' archive shows and links is in it
+    python3 -m zipfile -e "$one/depthprec-$version-windows-x86_64.zip" "$scratch/zip" && cd "$scratch"/zip/* &&
+        grep -oE '\]\([^)]*\)' README.md | sed 's/^](//; s/)$//' >"$scratch/links" && [ "$(wc -l <"$scratch/links")" -ge 5 ] &&
+        while read -r link; do [ -s "$link" ] || echo "no $link"; done <"$scratch/links"
+}
+check "what Windows' README shows is there" empty pictures
 check "Windows" has "depthprec-$version-windows-x86_64.zip" listed <<END
 depthprec.exe
 depthprec.dll
 depthprec.lib
+depthprec-config.cmake
 include/depthprec/depthprec.h
 LICENSE.GPL-3.0
 NOTICES.txt

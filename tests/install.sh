@@ -3,9 +3,11 @@
 # Installs into a folder, uses what was installed as a stranger would, and takes it away again.
 . tests/tap.sh
 
-stage=$scratch/stage
+stage=$scratch/stage # pkg-config's flags are words, so that it has a name without a space, too
+mkdir "$scratch/a stage"
+ln -s "a stage" "$stage"
 unset MAKEFLAGS MFLAGS MAKELEVEL
-install_to() { make --no-print-directory "$1" DESTDIR="$stage" PREFIX=/usr; }
+install_to() { make --no-print-directory "$1" DESTDIR="$scratch/a stage" PREFIX=/usr; }
 check "make install" install_to install
 [ $failures -eq 0 ] || { finish; exit 1; }
 
@@ -138,7 +140,15 @@ check "a fresh machine gets what make npm calls" named npm npm 1
 check "a fresh machine gets what make lint calls" named lint lint 5
 check "a fresh machine gets what make windows calls" named windows windows 1
 
+left() { # a machine without programs lacks them all, one that has them nothing
+    [ "$(PATH=$scratch/none /bin/sh src/packages.sh --left docs npm)" = "Left out, for want of programs: tests of docs npm. For each: sh src/packages.sh JOB; numpy: python3-numpy" ] &&
+        empty env -u PKG_CONFIG_LIBDIR sh src/packages.sh --left check
+}
+check "what is left out is told, with what installs it" left
+other_make() { ! command -v bmake >/dev/null || bmake -f Makefile help 2>&1 | grep 'this is not GNU make: on this system it is called gmake'; }
+check "another make says that it is none" other_make
+
 check "make uninstall" install_to uninstall
-nothing_left() { [ -d "$stage" ] && empty find "$stage" ! -type d; }
+nothing_left() { [ -d "$stage" ] && empty find "$stage/" ! -type d; }
 check "nothing is left" nothing_left
 finish

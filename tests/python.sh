@@ -91,6 +91,12 @@ for class in Oracle Program Matrix Memory Cameras; do
 done
 check "python3 -m depthprec is the program" command_runs
 check "its page and README.md show what it prints" shown
+if python3 -c 'import numpy'; then
+    recipes() { PYTHONPATH=$site python3 tests/python/recipes.py src/python/RECIPES.md; }
+    check "the recipes run as they stand" recipes
+else
+    skip "the recipes run as they stand" "no numpy here"
+fi
 if [ -n "${DEPTHPREC_FULL-}" ]; then
     check "it is built from its source archive" from_sources
 fi

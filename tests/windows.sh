@@ -104,6 +104,8 @@ streams() {
 }
 "$here" table | head -n 1 >first
 check "images through pipes, and a reader that has enough" streams first
+no_probe() { ! "$there" probe >probed 2>&1 && grep -q 'the program for Windows has no probe yet' probed; }
+check "probe says that there is none" no_probe
 cd "$OLDPWD" || exit 1
 
 # ---- The library -------------------------------------------------------------------------------------------------
@@ -114,6 +116,25 @@ linked() { # near 0.1, far 1000, z 10: round((1000/999.9) (1 - 0.01) (2^24 - 1))
         cp build/windows/depthprec.dll "$scratch" && wine "$scratch/user.exe" >"$scratch/code" && [ "$(cat "$scratch/code")" -eq 16611104 ]
 }
 check "the example is linked with the DLL, and runs" linked
+by_cmake() { # as the archive lies
+    mkdir -p "$scratch/cmake/zip/include" && cp -r include/depthprec "$scratch/cmake/zip/include" &&
+        cp src/windows/depthprec-config.cmake build/windows/depthprec.dll build/windows/depthprec.lib "$scratch/cmake/zip" &&
+        cp "$scratch/user.c" "$scratch/cmake" && cat >"$scratch/cmake/CMakeLists.txt" <<'END' &&
+cmake_minimum_required(VERSION 3.15)
+project(user C)
+find_package(depthprec CONFIG REQUIRED)
+add_executable(user user.c)
+target_link_libraries(user PRIVATE depthprec::depthprec)
+END
+        cmake -S "$scratch/cmake" -B "$scratch/cmake/b" -DCMAKE_SYSTEM_NAME=Windows -Ddepthprec_DIR="$scratch/cmake/zip" \
+            -DCMAKE_C_COMPILER=x86_64-w64-mingw32-gcc-posix && cmake --build "$scratch/cmake/b" &&
+        objdump -p "$scratch/cmake/b/user.exe" | grep -q 'DLL Name: depthprec.dll'
+}
+if command -v cmake >/dev/null; then
+    check "CMake finds the DLL" by_cmake
+else
+    skip "CMake finds the DLL" "there is no cmake"
+fi
 needs() { # needs FILE: what it needs but Windows' own
     objdump -p "$1" >"$scratch/headers" && grep -q 'DLL Name: KERNEL32.dll' "$scratch/headers" || return
     lines 'DLL Name' "$scratch/headers" | lines -vE 'KERNEL32.dll|msvcrt.dll'

@@ -467,12 +467,10 @@ bool shot_vulkan(const char *wanted, shot_plan *plan, shot_machine *machine) {
 
 #else
 
-static const char absent[] = "this build has no Vulkan: build it where Debian's package libvulkan-dev is installed";
-
 bool shot_vulkan(const char *wanted, shot_plan *plan, shot_machine *machine) {
     (void)wanted;
     (void)plan;
-    snprintf(machine->error, sizeof machine->error, absent);
+    snprintf(machine->error, sizeof machine->error, PROBE_ABSENT);
     return false;
 }
 

@@ -120,5 +120,9 @@ bool vulkan_make_commands(gpu *g);
 bool vulkan_begin_commands(gpu *g);
 bool vulkan_do_commands(gpu *g, uint64_t seconds);
 
+#elif defined(_WIN32)
+#define PROBE_ABSENT "the program for Windows has no probe yet: the page says what a browser shows of this GPU"
+#else
+#define PROBE_ABSENT "this build has no Vulkan: build it where Debian's package libvulkan-dev is installed"
 #endif
 #endif

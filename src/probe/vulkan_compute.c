@@ -183,14 +183,12 @@ bool shot_compute(const char *wanted, const compute_run *run, size_t runs, shot_
 
 #else
 
-static const char absent[] = "this build has no Vulkan: build it where Debian's package libvulkan-dev is installed";
-
 bool shot_compute(const char *wanted, const compute_run *run, size_t runs, shot_machine *machine, FILE *out) {
     (void)wanted;
     (void)run;
     (void)runs;
     (void)out;
-    snprintf(machine->error, sizeof machine->error, absent);
+    snprintf(machine->error, sizeof machine->error, PROBE_ABSENT);
     return false;
 }
 

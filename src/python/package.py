@@ -59,6 +59,7 @@ def _metadata():
     text = _read("src", "python", "README.md").decode()
     return ("Metadata-Version: 2.1\nName: depthprec\nVersion: %s\n"
             "Summary: What a depth buffer resolves: exact, proven, fast\n"
+            "Author: The depthprec authors\nAuthor-email: The depthprec authors <depthprec@packages.debian.org>\n"
             "License: MIT AND GPL-3.0-or-later\nRequires-Python: >=3.8\n"
             "Keywords: depth buffer,z-fighting,precision,graphics\n"
             "Description-Content-Type: text/markdown\n\n%s" % (_version(), text)).encode()
