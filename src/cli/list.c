@@ -25,6 +25,7 @@
 #include "shader/pack.h"
 #include "shader/packing.h"
 #include "shadow/engine.h"
+#include "shadow/filter.h"
 #include "solve/model.h"
 #include "texture/cmd_texture/products.h"
 #include "texture/device.h"
@@ -153,25 +154,55 @@ static void tell_platform(const void *of, list_item *item) {
            row->bias[0] != '\0' ? "; " : "", row->bias, row->newest);
 }
 
-static void tell_engine(const void *of, list_item *item) {
+/* "0.01 x scene units", and of spot and point lights where that is something else. */
+static void append_measure(list_item *item, const char *name, const shadow_measure in[3], const double scale[3]) {
     static const char *const measures[] = {[SHADOW_IN_WINDOW] = "window depth",
                                            [SHADOW_IN_SCENE] = "scene units",
                                            [SHADOW_IN_TEXELS] = "texels at the point's depth",
                                            [SHADOW_IN_FAR_TEXELS] = "texels, half of them at far",
+                                           [SHADOW_IN_SHARES] = "distance / texels of a side",
+                                           [SHADOW_IN_CLIP] = "clip z range / distance",
                                            [SHADOW_IN_UNITS] = "units of the API"};
+    static const char *const of[] = {"", ", of spot lights ", ", of point lights "};
+    append(item->bound, sizeof item->bound, "%s: ", name);
+    for (int k = 0; k < 3; k++)
+        if (k == 0 || in[k] != in[k - 1] || scale[k] != scale[k - 1])
+            append(item->bound, sizeof item->bound, "%s%g x %s", of[k], scale[k], measures[in[k]]);
+}
+
+static void tell_engine(const void *of, list_item *item) {
     static const char *const growths[] = {"at any angle", "times the sine of the angle",
-                                          "times one less the cosine of the angle"};
+                                          "times one less the cosine of the angle",
+                                          "times one less the cosine of the angle, square to the ray"};
     const shadow_engine *row = of;
-    append(item->bound, sizeof item->bound, "%s: %g x %s", row->bias, row->bias_scale, measures[row->bias_in]);
-    if (row->normal_in != SHADOW_IN_NOTHING)
-        append(item->bound, sizeof item->bound, "; %s: %g x %s, %s", row->normal, row->normal_scale,
-               measures[row->normal_in], growths[row->growth]);
+    append_measure(item, row->bias, row->bias_in, row->bias_scale);
+    if (row->normal != NULL) {
+        append(item->bound, sizeof item->bound, "; ");
+        append_measure(item, row->normal, row->normal_in, row->normal_scale);
+        append(item->bound, sizeof item->bound, ", %s", growths[row->growth[0]]);
+        if (row->growth[1] != row->growth[0])
+            append(item->bound, sizeof item->bound, " (spot lights: in every direction)");
+    }
     append(item->bound, sizeof item->bound,
            "; by default %g and %g, of spot lights %g and %g, of point lights %g and %g", row->standard[SHADOW_SUN][0],
            row->standard[SHADOW_SUN][1], row->standard[SHADOW_SPOT][0], row->standard[SHADOW_SPOT][1],
            row->standard[SHADOW_POINT][0], row->standard[SHADOW_POINT][1]);
     if (row->unconfirmed[0] != '\0')
         append(item->bound, sizeof item->bound, "; not confirmed: %s", row->unconfirmed);
+}
+
+static void tell_filter(const void *of, list_item *item) {
+    const shadow_filter *row = of;
+    if (row->instead[0] != '\0')
+        append(item->bound, sizeof item->bound, "not covered: %s", row->instead);
+    else if (row->per == 0.0)
+        append(item->bound, sizeof item->bound, "%g texel%s beside the point", row->base, row->base == 1.0 ? "" : "s");
+    else
+        append(item->bound, sizeof item->bound, "%s%s%s%s texels beside the point", row->amount,
+               row->per == 0.5 ? "/2" : "", row->base > 0.0 ? " + " : "",
+               row->base == 0.5   ? "0.5"
+               : row->base == 1.0 ? "1"
+                                  : "");
 }
 
 static void tell_api(const void *of, list_item *item) {
@@ -375,6 +406,10 @@ static const topic topics[] = {
      "the shadow biases of engines, for shadow --engine",
      {.rows = &shadow_engine_table, .tell = tell_engine},
      .bound = "rule"},
+    {"filters",
+     "filters of shadow maps, for shadow --filter",
+     {.rows = &shadow_filter_table, .tell = tell_filter},
+     .bound = "reads"},
     {"rasterizers",
      "how rasterizers snap vertices and step depth across triangles",
      {.rows = &raster_table, .tell = tell_rasterizer},

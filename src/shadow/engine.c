@@ -6,34 +6,48 @@
 #include "core/elementary.h"
 #include "shadow/ground.h"
 
+#define SAME(x)                                                                                                        \
+    { x, x, x }
+
 /* clang-format off */
 static const shadow_engine rows[] = {
     {"three", "threejs three.js", "added to the compared depth, of point lights to (distance - near)/(far - near)",
      "three.js, src/lights/LightShadow.js, shadowmap_pars_fragment.glsl.js, shadowmap_vertex.glsl.js",
-     "bias", "normalBias", SHADOW_IN_WINDOW, SHADOW_IN_SCENE, -1.0, 1.0, SHADOW_AT_ANY_ANGLE,
-     {{0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}}, false, 0.0, 0.0, ""},
+     "bias", "normalBias", SAME(SHADOW_IN_WINDOW), SAME(SHADOW_IN_SCENE), SAME(-1.0), SAME(1.0),
+     SAME(SHADOW_AT_ANY_ANGLE), {{0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}}, false, 0.0, 0.0, ""},
     {"unity-urp", "unity urp", "casters move; units 1 and slope factor 2.5 besides; no normal bias of point lights",
      "Universal RP, ShadowUtils.cs (GetShadowBias, RenderShadowSlice), Shadows.hlsl (ApplyShadowBias)",
-     "depthBias", "normalBias", SHADOW_IN_FAR_TEXELS, SHADOW_IN_FAR_TEXELS, 1.0, 1.0, SHADOW_BY_VERSINE,
-     {{1.0, 1.0}, {1.0, 1.0}, {1.0, 0.0}}, true, 1.0, 2.5, "defaults"},
+     "depthBias", "normalBias", SAME(SHADOW_IN_FAR_TEXELS), SAME(SHADOW_IN_FAR_TEXELS), SAME(1.0), SAME(1.0),
+     SAME(SHADOW_BY_VERSINE), {{1.0, 1.0}, {1.0, 1.0}, {1.0, 0.0}}, true, 1.0, 2.5, "defaults"},
     {"bevy", NULL, "the point is moved towards the light, and along its normal by sqrt(2) texels for each 1",
-     "Bevy, bevy_light/src/spot_light.rs, point_light.rs, bevy_pbr/src/render/shadows.wgsl, light.rs",
-     "shadow_depth_bias", "shadow_normal_bias", SHADOW_IN_SCENE, SHADOW_IN_TEXELS, 1.0, 1.4142135623730951,
-     SHADOW_AT_ANY_ANGLE, {{0.02, 1.8}, {0.02, 1.8}, {0.08, 0.6}}, false, 0.0, 0.0, ""},
+     "Bevy, bevy_light/src/directional_light.rs, spot_light.rs, point_light.rs, bevy_pbr/src/render/shadows.wgsl, "
+     "light.rs",
+     "shadow_depth_bias", "shadow_normal_bias", SAME(SHADOW_IN_SCENE), SAME(SHADOW_IN_TEXELS), SAME(1.0),
+     SAME(1.4142135623730951), SAME(SHADOW_AT_ANY_ANGLE), {{0.02, 1.8}, {0.02, 1.8}, {0.08, 0.6}}, false, 0.0, 0.0, ""},
     {"babylon", "babylonjs babylon.js", "half of it is window depth; casters are moved along their normal",
      "Babylon.js, shadowGenerator.ts, shadowMapVertexMetric, shadowMapVertexNormalBias",
-     "bias", "normalBias", SHADOW_IN_WINDOW, SHADOW_IN_SCENE, 0.5, 1.0, SHADOW_BY_SINE,
+     "bias", "normalBias", SAME(SHADOW_IN_WINDOW), SAME(SHADOW_IN_SCENE), SAME(0.5), SAME(1.0), SAME(SHADOW_BY_SINE),
      {{0.00005, 0.0}, {0.00005, 0.0}, {0.00005, 0.0}}, false, 0.0, 0.0, "the metric of point lights"},
     {"playcanvas", NULL, "10 times as many units, and as large a slope factor",
      "PlayCanvas, light component (shadowBias), shadow-renderer.js (setDepthBiasValues)",
-     "shadowBias", NULL, SHADOW_IN_UNITS, SHADOW_IN_NOTHING, 10.0, 0.0, SHADOW_AT_ANY_ANGLE,
-     {{0.05, 0.0}, {0.05, 0.0}, {0.05, 0.0}}, false, 0.0, 0.0, "point lights, normalOffsetBias"},
+     "shadowBias", NULL, SAME(SHADOW_IN_UNITS), SAME(SHADOW_IN_NOTHING), SAME(10.0), SAME(0.0),
+     SAME(SHADOW_AT_ANY_ANGLE), {{0.05, 0.0}, {0.05, 0.0}, {0.05, 0.0}}, false, 0.0, 0.0,
+     "point lights, normalOffsetBias"},
     {"filament", NULL, "half a diagonal of a texel for each 1 along the normal; units 0.5 and slope factor 2 besides",
      "Filament, LightManager.h (ShadowOptions)",
-     "constantBias", "normalBias", SHADOW_IN_SCENE, SHADOW_IN_TEXELS, 1.0, 0.7071067811865476, SHADOW_BY_SINE,
-     {{0.001, 1.0}, {0.001, 1.0}, {0.001, 1.0}}, false, 0.5, 2.0, "the scale of normalBias"},
+     "constantBias", "normalBias", SAME(SHADOW_IN_SCENE), SAME(SHADOW_IN_TEXELS), SAME(1.0), SAME(0.7071067811865476),
+     SAME(SHADOW_BY_SINE), {{0.001, 1.0}, {0.001, 1.0}, {0.001, 1.0}}, false, 0.5, 2.0, "the scale of normalBias"},
+    {"godot", "godot4", "1/100 of it is a length of the sun's, or clip z of spot lights; all of it a length of omni's",
+     "Godot 4, light_3d.cpp, light_storage.cpp, scene_forward_lights_inc.glsl, "
+     "scene_forward_clustered.glsl (BIAS_FUNC)",
+     "shadow_bias", "shadow_normal_bias", {SHADOW_IN_SCENE, SHADOW_IN_CLIP, SHADOW_IN_SCENE},
+     {SHADOW_IN_TEXELS, SHADOW_IN_SHARES, SHADOW_IN_SHARES}, {0.01, 0.01, 1.0}, {1.0, 10.0, 10.0},
+     {SHADOW_ASIDE, SHADOW_BY_VERSINE, SHADOW_ASIDE}, {{0.1, 2.0}, {0.03, 1.0}, {0.1, 1.0}}, false, 0.0, 0.0,
+     "bias_scale of cascades, taken to be 1"},
 };
 /* clang-format on */
+
+#undef SAME
 
 NAMED_TABLE(shadow_engine, rows);
 
@@ -50,6 +64,7 @@ static double length_of(shadow_measure in, const shadow_light *light, const grou
     return in == SHADOW_IN_SCENE                                           ? 1.0
            : in == SHADOW_IN_TEXELS || (in == SHADOW_IN_FAR_TEXELS && sun) ? texel
            : in == SHADOW_IN_FAR_TEXELS                                    ? 0.5 * g->pitch * light->setup.spec.zfar
+           : in == SHADOW_IN_SHARES                                        ? g->z / light->triangles.width
                                                                            : 0.0;
 }
 
@@ -65,8 +80,9 @@ shadow_given shadow_engine_gives(const shadow_engine *engine, const shadow_light
                                  double bias, double normal) {
     const dp_setup *setup = &light->setup;
     const ground g = shadow_ground_at(light, light->receiver_lo);
-    const double by = soft_by(engine, light), value = bias * engine->bias_scale * by;
-    const bool counted = engine->bias_in == SHADOW_IN_UNITS && !shadow_holds_distance(light);
+    const int kind = light->kind;
+    const double by = soft_by(engine, light), value = bias * engine->bias_scale[kind] * by;
+    const bool counted = engine->bias_in[kind] == SHADOW_IN_UNITS && !shadow_holds_distance(light);
     const double lo = dp_window(setup, light->receiver_lo), hi = dp_window(setup, light->receiver_hi);
     const bias_unit low = bias_unit_at(api, &setup->spec.format, fmin(lo, hi));
     const bias_unit high = bias_unit_at(api, &setup->spec.format, fmax(lo, hi));
@@ -74,19 +90,29 @@ shadow_given shadow_engine_gives(const shadow_engine *engine, const shadow_light
     shadow_given given = {.window_least = units * low.least,
                           .window_most = units * (isfinite(high.most) ? high.most : high.least),
                           .factor = shadow_holds_distance(light) ? 0.0 : engine->factor + (counted ? value : 0.0),
-                          .offset = normal * engine->normal_scale * by * length_of(engine->normal_in, light, &g),
-                          .growth = engine->growth};
-    if (engine->bias_in == SHADOW_IN_WINDOW) {
+                          .offset =
+                              normal * engine->normal_scale[kind] * by * length_of(engine->normal_in[kind], light, &g),
+                          .growth = engine->growth[kind]};
+    const bool leans = engine->normal_in[kind] == SHADOW_IN_SHARES && !shadow_holds_distance(light);
+    given.offset_most = given.offset / (leans ? dp_cos(g.corner) : 1.0); /* the distance of a point in the corner */
+    if (engine->bias_in[kind] == SHADOW_IN_CLIP && !shadow_holds_distance(light)) {
+        given.window_least += value * setup->spec.zfar * dp_cos(g.corner) / (g.z * g.z);
+        given.window_most += value * setup->spec.zfar / (g.z * g.z);
+    } else if (engine->bias_in[kind] == SHADOW_IN_WINDOW) {
         given.window_least += value;
         given.window_most += value;
     } else {
-        along_ray(light, &g, value * length_of(engine->bias_in, light, &g), &given);
+        along_ray(light, &g, value * length_of(engine->bias_in[kind], light, &g), &given);
     }
     return given;
 }
 
 static double grown(shadow_growth growth, double angle) {
-    return growth == SHADOW_BY_SINE ? dp_sin(angle) : growth == SHADOW_BY_VERSINE ? 1.0 - dp_cos(angle) : 1.0;
+    const double sine = dp_sin(angle), versine = 1.0 - dp_cos(angle);
+    return growth == SHADOW_BY_SINE      ? sine
+           : growth == SHADOW_BY_VERSINE ? versine
+           : growth == SHADOW_ASIDE      ? versine * sine * sine
+                                         : 1.0;
 }
 
 /* ---- The verdict ------------------------------------------------------------------------------------------------- */
@@ -164,9 +190,9 @@ shadow_verdict shadow_judge(const shadow_light *light, const shadow_given *given
     const double sine = dp_sin(shadow_radians(most));
     const shadow_bias set = {.window = given->window_most,
                              .factor = given->factor,
-                             .offset = given->offset == 0.0
+                             .offset = given->offset_most == 0.0
                                            ? 0.0
-                                           : given->offset * turned / (sines ? fmax(sine, 1e-9) : 1.0) /
+                                           : given->offset_most * turned / (sines ? fmax(sine, 1e-9) : 1.0) /
                                                  (light->kind == SHADOW_SUN ? 1.0 : far.z)};
     double normal;
     shadow_gap_at(light, &set, most, &v.gap, &normal);
@@ -209,20 +235,22 @@ double shadow_bias_as(const shadow_engine *engine, const shadow_light *light, co
     const ground g = shadow_ground_at(light, light->receiver_lo);
     const shadow_given none = shadow_engine_gives(engine, light, api, 0.0, 0.0);
     const shadow_given one = shadow_engine_gives(engine, light, api, 1.0, 0.0);
-    const double scale = engine->bias_scale * soft_by(engine, light), wanted = window - none.window_most;
-    const double length = scale * length_of(engine->bias_in, light, &g), ray = wanted * g.depth;
-    if (engine->bias_in == SHADOW_IN_NOTHING || one.window_most == none.window_most)
+    const shadow_measure in = engine->bias_in[light->kind];
+    const double scale = engine->bias_scale[light->kind] * soft_by(engine, light), wanted = window - none.window_most;
+    const double length = scale * length_of(in, light, &g), ray = wanted * g.depth;
+    if (in == SHADOW_IN_NOTHING || one.window_most == none.window_most)
         return (double)NAN;
-    if (engine->bias_in == SHADOW_IN_WINDOW || engine->bias_in == SHADOW_IN_UNITS)
+    if (in == SHADOW_IN_WINDOW || in == SHADOW_IN_UNITS || in == SHADOW_IN_CLIP)
         return wanted / (one.window_most - none.window_most);
     return (light->kind == SHADOW_SUN || shadow_holds_distance(light) ? ray : ray * g.z / (g.z + ray)) / length;
 }
 
 double shadow_normal_as(const shadow_engine *engine, const shadow_light *light, double offset) {
     const ground g = shadow_ground_at(light, light->receiver_lo);
-    const double one = engine->normal_scale * soft_by(engine, light) * length_of(engine->normal_in, light, &g) *
-                       grown(engine->growth, shadow_radians(light->triangles.slant_hi));
-    return engine->normal_in == SHADOW_IN_NOTHING || one == 0.0 ? (double)NAN : offset / one;
+    const shadow_measure in = engine->normal_in[light->kind];
+    const double one = engine->normal_scale[light->kind] * soft_by(engine, light) * length_of(in, light, &g) *
+                       grown(engine->growth[light->kind], shadow_radians(light->triangles.slant_hi));
+    return in == SHADOW_IN_NOTHING || one == 0.0 ? (double)NAN : offset / one;
 }
 
 double shadow_given_offset(const shadow_given *given, double angle) {
@@ -263,12 +291,13 @@ static double least_in(const sought *s, const shadow_light *part, double lo, dou
  * largest as a rule, so both come first. */
 static double least(const shadow_engine *engine, const shadow_light *light, const bias_api *api, double other,
                     bool of_normal) {
-    const double scale = of_normal ? engine->normal_scale : engine->bias_scale, first = 1e-9 / fabs(scale);
+    const double scale = (of_normal ? engine->normal_scale : engine->bias_scale)[light->kind];
+    const double first = 1e-9 / fabs(scale);
     const double bound = 1e6 * fmax(fmin(light->setup.spec.zfar, light->receiver_hi), 1.0) / fabs(scale);
     const sought s = {engine, api, other, scale < 0.0 ? -1.0 : 1.0, of_normal};
     shadow_light part;
     double found = 0.0;
-    if ((of_normal ? engine->normal_in : engine->bias_in) == SHADOW_IN_NOTHING)
+    if ((of_normal ? engine->normal_in : engine->bias_in)[light->kind] == SHADOW_IN_NOTHING)
         return (double)NAN;
     for (double z = light->receiver_lo; next_part(light, &z, &part);)
         continue; /* to the last */

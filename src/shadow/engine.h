@@ -18,21 +18,27 @@ typedef enum shadow_measure {
     SHADOW_IN_SCENE,       /**< scene units */
     SHADOW_IN_TEXELS,      /**< texels at the point's depth */
     SHADOW_IN_FAR_TEXELS,  /**< texels, of a spot or point light half of one at the far plane */
+    SHADOW_IN_SHARES,      /**< of a spot or point light: the point's distance over the texels of a side of the map */
+    SHADOW_IN_CLIP,        /**< of a spot light's depth: clip z for each range of the light over the point's distance */
     SHADOW_IN_UNITS        /**< units of the API, and as large a slope factor */
 } shadow_measure;
 
 typedef enum shadow_growth {
     SHADOW_AT_ANY_ANGLE = 0,
     SHADOW_BY_SINE,
-    SHADOW_BY_VERSINE /**< 1 - cos */
+    SHADOW_BY_VERSINE, /**< 1 - cos */
+    SHADOW_ASIDE /**< the same, and only what of that is square to the ray: as much as (1 - cos) sin^2 along the normal
+                  */
 } shadow_growth;
 
 typedef struct shadow_engine {
     NAMED_FIELDS;
     const char *bias, *normal; /**< what it calls them; null where it has none */
-    shadow_measure bias_in, normal_in;
-    double bias_scale, normal_scale; /**< what 1 of each is; negative where negative numbers keep surfaces lit */
-    shadow_growth growth;
+    /** For each shadow_kind: what both numbers measure, what 1 of each is (negative where negative numbers keep
+     * surfaces lit), and how the second grows. */
+    shadow_measure bias_in[3], normal_in[3];
+    double bias_scale[3], normal_scale[3];
+    shadow_growth growth[3];
     double standard[3][2];   /**< the defaults of both, for each shadow_kind */
     bool soft;               /**< both are multiplied by the filter's radius where that reads more than 2 x 2 texels */
     double units, factor;    /**< set besides, whatever the numbers */
@@ -45,7 +51,8 @@ NAMED_ROWS(shadow_engine, shadow_engine);
 typedef struct shadow_given {
     double window_least, window_most; /**< along the ray, window depth: where a ray leans most, and on the axis */
     double factor;
-    double offset; /**< along the normal at 90 degrees, or at any angle, scene units */
+    double offset;      /**< along the normal at 90 degrees, or at any angle, scene units; where that is least */
+    double offset_most; /**< and where it is most */
     shadow_growth growth;
 } shadow_given;
 

@@ -140,7 +140,7 @@ static const struct {
     {ALL, IDS("figure-size", "raster", "channel", "device", "define", "axes"), NULL, NULL, ""},
     {ALL, IDS("lattice", "as", "intrinsics"), NULL, NULL, ""},
     {ALL, IDS("eye", "look", "last-eye", "last-look", "sample"), NULL, NULL, ""},
-    {ALL, IDS("tolerance", "within", "units", "remedy"), NULL, NULL, ""},
+    {ALL, IDS("tolerance", "within", "units", "remedy", "filter"), NULL, NULL, ""},
     {BIT(zfight) | BIT(bias) | BIT(plot) | BIT(scene), IDS("separation"), NULL, NULL, ""},
     {BIT(texture), IDS("range", "tint"), NULL, NULL, ""},                 /* test_png_out and test_compose have them */
     {BIT(table) | BIT(bias) | BIT(shadow), IDS("range"), NULL, NULL, ""}, /* given, more is said of it */

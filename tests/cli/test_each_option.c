@@ -115,6 +115,7 @@ static const struct {
     {"light-box", "20x20x20"},
     {"spot", "50"},
     {"engine", "bevy"},
+    {"filter", "pcf:7"},
     {"bias", "-0.03"},
     {"normal-bias", "0.5"},
     {"point", ""},

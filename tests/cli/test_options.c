@@ -525,6 +525,8 @@ TEST(test_flags) {
           "the first, and all");
     TALLY(&t, parse(&o, "shadow", "bias", "1", line) == EXIT_USAGE, "needs an engine");
     TALLY(&t, parse(&o, "shadow", "normal-bias", "1", line) == EXIT_USAGE, "needs an engine");
+    TALLY(&t, parse(&o, "shadow", "filter", "poisson-2x2:2.2", line) == EXIT_FINE, "%s", line);
+    TALLY(&t, ASKED(shadow, o)->shadow.kernel == 7, "twice 3.2, and rounded up");
     TALLY(&t, parse(&o, "bias", "remedy", "near:1.5", line) == EXIT_FINE, "%s", line);
     TALLY(&t, strcmp(ASKED(bias, o)->remedy->name, "near") == 0 && ASKED(bias, o)->amount == 1.5, "name and number");
     TALLY(&t, parse(&o, "bias", "remedy", "near:0.5", line) == EXIT_USAGE, "below the least");

@@ -147,6 +147,8 @@ static const refusal refusals[] = {
     {"shadow --light-box 1x1", "light-box", 2},
     {"shadow --spot 0", "spot", 2},
     {"shadow --engine quake", "engine", 2},
+    {"shadow --check", "check", 2},
+    {"shadow --filter vsm", "filter", 2},
     {"shadow --bias 1", "bias", 2},
     {"shadow --normal-bias 1", "normal-bias", 2},
     {"shadow --engine three --normal-bias -1", "normal-bias", 2},

@@ -101,9 +101,12 @@ static bool preset_row(size_t i, listed *l) {
 
 static bool engine(size_t i, listed *l) {
     ROW(shadow_engine, shadow_engine_get(i), r->aliases)
-    add_number(l, r->bias_scale);
-    if (r->normal_in != SHADOW_IN_NOTHING)
-        add_number(l, r->normal_scale);
+    for (int k = 0; k < 3; k++) /* of each kind of light, where it is not that of the one before */
+        if (k == 0 || r->bias_in[k] != r->bias_in[k - 1] || r->bias_scale[k] != r->bias_scale[k - 1])
+            add_number(l, r->bias_scale[k]);
+    for (int k = 0; k < 3 && r->normal != NULL; k++)
+        if (k == 0 || r->normal_in[k] != r->normal_in[k - 1] || r->normal_scale[k] != r->normal_scale[k - 1])
+            add_number(l, r->normal_scale[k]);
     for (int kind = 0; kind < 3; kind++)
         for (int which = 0; which < 2; which++)
             add_number(l, r->standard[kind][which]);

@@ -34,30 +34,35 @@ static shadow_light random_light(rng *r) {
 }
 
 /* The numbers at work, by the engines' own shaders: window depth taken off, a length towards the light, a slope factor,
- * and a length along the normal at an angle. */
+ * a length along the normal at an angle, and one of which only what is square to the ray counts. */
 typedef struct done {
-    long double window, ray, factor, normal;
+    long double window, ray, factor, normal, aside;
 } done;
 
 static done by_engine(const char *name, const shadow_light *l, double unit, double bias, double normal,
-                      long double angle) {
+                      long double angle, long double length) {
     const long double z = l->receiver_lo, tangent = tanl((long double)l->fov * pi / 360);
     const bool sun = l->kind == SHADOW_SUN;
     const long double texel = sun ? l->width / l->triangles.width : 2 * tangent * z / l->triangles.width;
     const long double half_far = sun ? texel : tangent * l->setup.spec.zfar / l->triangles.width;
     const long double soft = l->kernel > 1 ? l->kernel : 1;
     if (strcmp(name, "three") == 0)
-        return (done){-bias, 0, 0, normal};
+        return (done){-bias, 0, 0, normal, 0};
     if (strcmp(name, "unity-urp") == 0)
-        return (done){unit, bias * half_far * soft, 2.5L, normal * half_far * soft * (1 - cosl(angle))};
+        return (done){unit, bias * half_far * soft, 2.5L, normal * half_far * soft * (1 - cosl(angle)), 0};
     if (strcmp(name, "bevy") == 0)
-        return (done){0, bias, 0, normal * texel * sqrtl(2)};
+        return (done){0, bias, 0, normal * texel * sqrtl(2), 0};
     if (strcmp(name, "babylon") == 0)
-        return (done){0.5L * bias, 0, 0, normal * sinl(angle)};
+        return (done){0.5L * bias, 0, 0, normal * sinl(angle), 0};
     if (strcmp(name, "playcanvas") == 0)
-        return (done){10 * bias * unit, 0, 10 * bias, 0};
+        return (done){10 * bias * unit, 0, 10 * bias, 0, 0};
+    const long double share = 10 * normal * z * length / l->triangles.width * (1 - cosl(angle));
+    if (strcmp(name, "godot") == 0)
+        return sun                       ? (done){0, bias / 100, 0, 0, normal * texel * (1 - cosl(angle))}
+               : l->kind == SHADOW_POINT ? (done){0, bias, 0, 0, share}
+                                         : (done){bias / 100 * l->setup.spec.zfar / (z * z * length), 0, 0, share, 0};
     assert_string_equal(name, "filament");
-    return (done){0.5L * unit, bias, 2, normal * texel * sqrtl(0.5L) * sinl(angle)};
+    return (done){0.5L * unit, bias, 2, normal * texel * sqrtl(0.5L) * sinl(angle), 0};
 }
 
 /* 1 over the depth, or less the depth of the sun: what the map is linear in, and falls away from the light. */
@@ -81,7 +86,7 @@ static bool is_lit(const shadow_light *l, const done *d, long double angle, long
         plane += n[i] * at[i];
     }
     for (int i = 0; i < 3; i++)
-        at[i] -= d->normal * n[i] + d->ray * ray[i];
+        at[i] -= d->normal * n[i] + d->aside * (n[i] - cosl(angle) * ray[i]) + d->ray * ray[i];
     if (!(at[2] > 0))
         return true;
     const long double x = sun ? at[0] : at[0] / at[2], y = sun ? at[1] : at[1] / at[2];
@@ -107,13 +112,15 @@ static void numbers_of(rng *r, const shadow_light *light, const shadow_engine *e
     const double window = need.bias[SHADOW_CONSTANT].window, texel = need.texel;
     const double ray =
         window * light->setup.kappa * (light->kind == SHADOW_SUN ? 1.0 : light->receiver_lo * light->receiver_lo);
-    const double one = engine->bias_in == SHADOW_IN_WINDOW  ? window
-                       : engine->bias_in == SHADOW_IN_SCENE ? ray
-                       : engine->bias_in == SHADOW_IN_UNITS ? 1.0
-                                                            : ray / texel;
-    *bias = (engine->bias_scale < 0.0 ? -1.0 : 1.0) * one * (rng_below(r, 4) ? rng_log(r, 0.01, 3.0) : 0.0);
-    *normal = engine->normal_in == SHADOW_IN_SCENE ? texel * rng_uniform(r, 0.0, 4.0) : rng_uniform(r, 0.0, 3.0);
-    *normal = rng_below(r, 3) && engine->normal_in != SHADOW_IN_NOTHING ? *normal : 0.0;
+    const double one = engine->bias_in[light->kind] == SHADOW_IN_WINDOW  ? window
+                       : engine->bias_in[light->kind] == SHADOW_IN_SCENE ? ray
+                       : engine->bias_in[light->kind] == SHADOW_IN_UNITS ? 1.0
+                                                                         : ray / texel;
+    *bias =
+        (engine->bias_scale[light->kind] < 0.0 ? -1.0 : 1.0) * one * (rng_below(r, 4) ? rng_log(r, 0.01, 3.0) : 0.0);
+    *normal =
+        engine->normal_in[light->kind] == SHADOW_IN_SCENE ? texel * rng_uniform(r, 0.0, 4.0) : rng_uniform(r, 0.0, 3.0);
+    *normal = rng_below(r, 3) && engine->normal_in[light->kind] != SHADOW_IN_NOTHING ? *normal : 0.0;
 }
 
 TEST(verdicts) {
@@ -123,7 +130,7 @@ TEST(verdicts) {
     const bias_api *api = bias_api_find("vulkan-unorm"); /* a unit is worth the same at any depth */
     for (uint64_t n = test_cases(600, 6000, 100000); n > 0; n--) {
         const shadow_light light = random_light(&r);
-        const shadow_engine *engine = shadow_engine_get(n % 6);
+        const shadow_engine *engine = shadow_engine_get(n % shadow_engine_table.count);
         double bias, normal;
         numbers_of(&r, &light, engine, &bias, &normal);
         const double unit = bias_unit_at(api, &light.setup.spec.format, 1.0).least;
@@ -135,13 +142,14 @@ TEST(verdicts) {
             const long double angle = (i % 2 ? v.free : rng_uniform(&r, 0.0, v.free)) * pi / 180;
             const long double azimuth = i % 3 ? pi / 4 * (long double)rng_below(&r, 8) : rng_uniform(&r, -3.0, 3.0);
             const double u = rng_uniform(&r, -h, h), v2 = i % 4 ? u : rng_uniform(&r, -h, h);
-            const done d = by_engine(engine->name, &light, unit, bias, normal, angle);
+            const long double length = light.kind == SHADOW_SUN ? 1 : sqrtl(u * u + v2 * v2 + 1);
+            const done d = by_engine(engine->name, &light, unit, bias, normal, angle, length);
             TALLY(&t[0], is_lit(&light, &d, angle, azimuth, u, v2), "%s %g, %g: kind %d, %g degrees of %g",
                   engine->name, bias, normal, light.kind, (double)(angle * 180 / pi), v.free);
         }
         if (isnan(v.acne))
             continue;
-        const done d = by_engine(engine->name, &light, unit, bias, normal, v.acne * pi / 180);
+        const done d = by_engine(engine->name, &light, unit, bias, normal, v.acne * pi / 180, 1);
         TALLY(&t[1], !is_lit(&light, &d, v.acne * pi / 180, pi / 4, 0, 0), "%s %g, %g: kind %d, %g degrees",
               engine->name, bias, normal, light.kind, v.acne);
         TALLY(&t[1], v.acne > v.free, "%s: free up to %g, acne from %g", engine->name, v.free, v.acne);
@@ -160,7 +168,7 @@ TEST(least) {
     const bias_api *api = bias_api_find("vulkan-unorm");
     for (uint64_t n = test_cases(60, 600, 5000); n > 0; n--) {
         const shadow_light light = random_light(&r);
-        const shadow_engine *engine = shadow_engine_get(n % 6);
+        const shadow_engine *engine = shadow_engine_get(n % shadow_engine_table.count);
         const double most = light.triangles.slant_hi;
         double bias, normal;
         numbers_of(&r, &light, engine, &bias, &normal);

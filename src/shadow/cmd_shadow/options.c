@@ -10,6 +10,7 @@
 #include "report/output.h"
 #include "shadow/cmd_shadow/request.h"
 #include "shadow/engine.h"
+#include "shadow/filter.h"
 #include "shadow/shadow.h"
 
 /* N, or N:LAMBDA. */
@@ -66,6 +67,33 @@ static int parse_camera_depth(asked_line *line, const option_row *row, const cha
     return far != NULL ? camera_read_far(line, row, far, &camera->zfar) : EXIT_FINE;
 }
 
+static const name_list filters = {.rows = &shadow_filter_table};
+
+/* NAME, or NAME:X where it has a number: sets --kernel to a whole number that covers it. */
+static int parse_filter(asked_line *line, const option_row *row, const char *value, void *group) {
+    shadow_asked *o = group;
+    const size_t length = strcspn(value, ":");
+    char name[32];
+    list_item found;
+    double number = 0.0;
+    (void)line;
+    snprintf(name, sizeof name, "%.*s", (int)length, value);
+    if (length >= sizeof name || !names_find(row->names, name, NULL, &found))
+        return option_unknown(row, name);
+    const shadow_filter *f = found.row;
+    const bool numbered = f->amount[0] != '\0';
+    if (f->instead[0] != '\0')
+        return option_refuse(row, "must be a filter that compares depths, got '%s': %s", f->name, f->instead);
+    if (!numbered && value[length] != '\0')
+        return option_refuse(row, "must be %s, which has no number, got '%s'", f->name, value);
+    if (numbered && (value[length] == '\0' || !number_parse(value + length + 1, NUMBER_FINITE, &number) ||
+                     !(number >= f->least && number <= f->most) || (f->whole && number != floor(number))))
+        return option_refuse(row, "must be %s:%s, %s %s from %g to %g, got '%s'", f->name, f->amount, f->amount,
+                             f->whole ? "a whole number" : "a number", f->least, f->most, value);
+    o->filter = (unsigned)ceil(2.0 * shadow_filter_radius(f, number));
+    return EXIT_FINE;
+}
+
 static const name_list engines = {.rows = &shadow_engine_table};
 
 static int add_engine(asked_line *line, const option_row *row, const char *name, void *group) {
@@ -120,6 +148,9 @@ static const option_row shadow_rows[] = {
     {"kernel", 0, "N",
         "the filter reads NxN texels: 1 nearest, 2 bilinear, 3 and more percentage-closer filtering",
         WHOLE(kernel, 1, 64, "texels"), .standard = "3"},
+    {"filter", 0, "NAME[:X]",
+        "in place of --kernel: a filter by name, with its number of taps or radius in texels: @",
+        .parse = parse_filter, SIZED(filter), .names = &filters, .without = "--kernel"},
     {"angle", 0, "DEG",
         "receivers stay free of acne up to this angle between their normal and the light",
         NUMBER(angle, 0, SHADOW_SLANT_MAX, "degrees"), .standard = "75"},
@@ -133,9 +164,13 @@ static const option_row shadow_rows[] = {
         "whether the bias of an engine is enough, in its own numbers: @; those of others do the same where receivers "
         "are nearest", .parse = parse_engines, INTO(unsigned, engines), .names = &engines},
     {"bias", 0, "B",
-        "with --engine: its bias", NUMBER(bias, -1e12, 1e12, NULL), .without = "the engine's default"},
+        "with --engine: its bias", NUMBER(bias, -1e12, 1e12, NULL), .without = "the engine's default",
+        .also = "shadow_depth_bias shadowBias shadow_bias constantBias"},
     {"normal-bias", 0, "N",
-        "with --engine: its normal bias", NUMBER(normal_bias, 0, 1e12, NULL), .without = "the engine's default"},
+        "with --engine: its normal bias", NUMBER(normal_bias, 0, 1e12, NULL), .without = "the engine's default",
+        .also = "normalBias shadow_normal_bias"},
+    {"check", 0, NULL,
+        "with --engine: exit with status 1 unless its bias is enough up to --angle, in every map", FLAG(checked)},
     {"from-origin", 0, "R",
         SHADOW_FROM_ORIGIN, LENGTH(world, 0, 1e18, "scene units"), .standard = "0", .without = SHADOW_FROM_ORIGIN_OUT},
     END};
@@ -143,7 +178,9 @@ static const option_row shadow_rows[] = {
 
 static const option_rule shadow_rules[] = {CONFLICTS("spot", "point", NULL),
                                            CONFLICTS("light-box", "spot point", NULL),
+                                           CONFLICTS("filter", "kernel", NULL),
                                            NEEDS("bias", "engine", NULL),
+                                           NEEDS("check", "engine", ": it is its bias that is judged"),
                                            NEEDS("normal-bias", "engine", NULL),
 
                                            CONFLICTS("distance", "api", ": no API biases what a shader writes"),
@@ -185,13 +222,13 @@ static const option_use of_place[] = {
 static const option_use of_flat[] = {TAKE("curvature"), END};
 
 static const option_use uses[] = {
-    TAKE("from-origin"),
+    TAKE("from-origin"), TAKE("filter"),
     OWN("format", DEFAULT("fp32")), OWN("mapping", HELP(CAMERA_ALL_PERSPECTIVE), DEFAULT("d3d")),
     CAMERA_UNIT_ALONE,
     OWN("arith", ALSO("by default that of --raster where known")),
     FOR(PART_CASCADES | PART_PLACE, of_planes), FOR(PART_CASCADES, of_cascades),
     FOR(PART_BOX | PART_PLACE, of_ranges), FOR(PART_PLACE, of_place), FOR(PART_CASCADES | PART_BOX, of_flat),
-    GROUP_OF(shadow_map_uses), TAKE("spot"), TAKE("point"), TAKE("engine"), TAKE("bias"),
+    GROUP_OF(shadow_map_uses), TAKE("spot"), TAKE("point"), TAKE("engine"), TAKE("bias"), TAKE("check"),
     TAKE("normal-bias"),
     TAKE("raster"), TAKE("subpixel"), TAKE("triangle-class"), TAKE("api"),
     GROUP_OF(output_written), END};
@@ -219,6 +256,8 @@ static size_t asked_part(const void *request) {
 static int complete(void *request) {
     shadow_request *o = request;
     bias_bring(o->line, &o->bias, &o->camera, false);
+    if (o->shadow.filter > 0)
+        o->shadow.kernel = o->shadow.filter;
     return camera_complete(&o->camera, &(camera_use){.mapped = true});
 }
 

@@ -17,8 +17,10 @@ typedef struct shadow_asked {
     unsigned engines;                   /**< 1 << index of shadow_engine_get(), or-ed */
     const struct shadow_engine *engine; /**< the first that was named, whose numbers are given; null: none */
     double bias, normal_bias;           /**< NaN when not given */
+    bool checked;                       /**< whether an engine's bias is enough decides the exit status */
     double casters;                     /**< scene units */
     unsigned kernel;                    /**< the filter reads so many texels in either direction */
+    unsigned filter;                    /**< the same of --filter; 0 when not given */
     double angle;                       /**< of a receiver's normal to the light, degrees */
     double world;                       /**< no coordinate of a position exceeds it, scene units */
     double curvature;                   /**< radius of curvature of receivers, scene units; NaN when not given */
