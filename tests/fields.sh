@@ -80,6 +80,7 @@ profile_fields() { # what of a profile is not in the page, or that it is none
 for profile in tests/profiles/*.json; do
     check "depthprec.5: ${profile##*/}" empty profile_fields "$profile"
 done
+all_named solve --preset maplibre:height=800 --separation 1m
 all_named bias --at 10 --units 1
 all_named bias --range 1:10 --separation 0.01
 all_named bias --at 10 --viewport 640x480

@@ -20,7 +20,7 @@ static const row rows[] = {
     {"godot-forward godot-mobile godot-compatibility", "camera.near = ", "", NULL},
     {"bevy", "PerspectiveProjection { near: ", ", ..default() }", NULL},
     {"cesium", "viewer.camera.frustum.near = ", ";", NULL},
-    {"mujoco", "<visual><map znear=\"", "\"/></visual>", NULL},
+    {"mujoco mujoco-2", "model.vis.map.znear = ", " / model.stat.extent", NULL},
 };
 
 const char *paste_presets(size_t i) {

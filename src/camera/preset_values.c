@@ -114,7 +114,7 @@ static void append_example(const preset *row, const preset_values *v, char out[P
     for (int i = 0; parameter_at(row, i) != NULL; i++) {
         const preset_parameter *p = parameter_at(row, i);
         const double number = isnan(v->given[i]) ? p->example : v->given[i];
-        if (isnan(v->given[i]) && !isnan(p->standard))
+        if ((isnan(v->given[i]) && !isnan(p->standard)) || (i == 0 && v->sought))
             continue;
         append(out, PRESET_ERROR_SIZE, "%s%s=%.15g", between, p->name, number);
         between = ",";
@@ -130,7 +130,7 @@ bool preset_make(const preset *row, const preset_values *values, preset_camera *
         return true;
     for (int i = 0; parameter_at(row, i) != NULL; i++) {
         const preset_parameter *p = parameter_at(row, i);
-        given[i] = isnan(values->given[i]) ? p->standard : values->given[i];
+        given[i] = isnan(values->given[i]) ? (i == 0 && values->sought ? p->example : p->standard) : values->given[i];
         if (!isnan(given[i]))
             continue;
         append(error, PRESET_ERROR_SIZE, "%s%s", *error == '\0' ? "needs " : " and ", p->name);

@@ -64,6 +64,7 @@ NAMED_ROWS(preset, preset);
 typedef struct preset_values {
     double given[PRESET_PARAMETERS]; /**< NaN: not given */
     char words[PRESET_WORDS_SIZE];   /**< as it was typed */
+    bool sought;                     /**< the first is solved for: its example stands for it, and is not asked for */
 } preset_values;
 
 /** How long the first of several is, which commas part as they part the numbers of each. */

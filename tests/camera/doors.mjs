@@ -10,11 +10,11 @@ const show = (x) => (bits.setFloat64(0, x), bits.getBigUint64(0).toString(16).pa
 
 function value(key, text) {
     const parts = text.split(",").map((part) => (part === "inf" ? Infinity : Number.isNaN(Number(part)) ? part : Number(part)));
-    return key === "ortho" ? text === "true" : parts.length > 1 ? parts : parts[0];
+    return key === "preset" ? text : key === "ortho" ? text === "true" : parts.length > 1 ? parts : parts[0];
 }
 
 for (const [i, line] of readFileSync(process.argv[3], "utf8").trim().split("\n").entries()) {
-    const { at = "5", ...keys } = Object.fromEntries(line.startsWith("#") ? [] : line.split("|")[1].trim().split(" ").map((pair) => pair.split("=")));
+    const { at = "5", ...keys } = Object.fromEntries(line.startsWith("#") ? [] : line.split("|")[1].trim().split(" ").map((pair) => [pair.split("=")[0], pair.slice(pair.indexOf("=") + 1)]));
     const whole = "preset" in keys ? { model: "exact", ...keys } : { ...USUAL, ...keys };
     let said = "-";
     if (line.startsWith("#")) continue;

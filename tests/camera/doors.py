@@ -37,6 +37,8 @@ def option(key, value):
 
 
 def setting(key, value):
+    if key == "preset":
+        return 'preset = "%s";' % value
     parts = [part if is_number(part) or key == "ortho" else '"%s"' % part for part in value.split(",")]
     if key == "triangle":
         return "triangle = { %s };" % "; ".join("%s = %s" % pair for pair in zip(TRIANGLE, parts))
@@ -44,6 +46,8 @@ def setting(key, value):
 
 
 def keyword(key, value):
+    if key == "preset":
+        return value
     parts = [float(part) if is_number(part) or part == "inf" else part for part in value.split(",")]
     if key == "subpixel" and parts[0] == int(parts[0]):
         return int(parts[0])
@@ -94,7 +98,7 @@ def with_units(keys):
 for number, line in enumerate(open(table, encoding="ascii"), 1):
     if line.startswith("#"):
         continue
-    said = dict(pair.split("=") for pair in line.split("|")[1].split())
+    said = dict(pair.split("=", 1) for pair in line.split("|")[1].split())
     depth = said.pop("at", "5")
     whole = {**({"model": "exact"} if "preset" in said else USUAL), **said}
     print(number, line.split("|")[0].strip(), by_line(whole, depth), by_file(whole, depth),

@@ -9,7 +9,7 @@ import sys
 seed, count = map(int, sys.argv[1:])
 draw = random.Random(seed)
 PRESETS = ("unity unity-gl unreal godot godot-mobile godot-compatibility three three-webgpu r3f aframe babylon playcanvas bevy "
-           "cesium mujoco").split()
+           "cesium mujoco:extent=2 maplibre:zoom=20,height=800").split()
 PERSPECTIVE = ["d3d", "gl", "reversed", "gl-reversed"]
 OTHERS = ["linear", "log", "three-webgl", "three-webgpu", "cesium", "osgearth", "logarithmicDepthBuffer"]
 UNITS = ["nm", "um", "mm", "cm", "in", "ft", "m", "km"]
@@ -31,7 +31,8 @@ def camera():
     some(often, "far", ["1000", "inf", "50", "7"] + behind, keys)
     some(1.0 if slanted or computed or not keys.get("preset") else 0.4, "mapping",
          PERSPECTIVE if slanted or computed else PERSPECTIVE + OTHERS, keys)
-    some(0.5 if "preset" in keys else 1.0, "format", ["fp32", "unorm24", "fp16", "unorm16", "D24_UNORM_S8_UINT"], keys)
+    some(0.5 if keys.get("preset", "three-webgpu") != "three-webgpu" else 1.0, "format",
+         ["fp32", "unorm24", "fp16", "unorm16", "D24_UNORM_S8_UINT"], keys)
     some(0.15, "ortho", ["true"], keys)
     some(0.3, "rounding", ["even", "zero"], keys)
     some(0.2, "log_c", ["2", "0.01"], keys)

@@ -88,7 +88,8 @@ static const struct {
     {"table|--preset|maplibre-globe:height=800,zoom=4|-n|5", AT(table, camera.znear), 5, "m"},
     {"table|--preset|three|--at|50cm", AT(table, camera.at.lo), 0.5, "m"},
     {"table|--preset|three", AT(table, camera.znear), 0.1, NULL},
-    {"table|--preset|mujoco|--unit|m|--at|50cm", AT(table, camera.at.lo), 0.5, "m"},
+    {"table|--preset|mujoco:extent=2|--unit|cm", AT(table, camera.znear), 2, "cm"},
+    {"table|--preset|mujoco:extent=2|--at|50cm", AT(table, camera.at.lo), 0.5, "m"},
     {"solve|--separation|1mm", AT(solve, separation), 0.001, "m"},
     {"solve|--error|2 cm|--preset|unreal", AT(solve, error), 2, "cm"},
     {"bias|--separation|3mm|--unit|cm", AT(bias, bias.separation), 0.3, "cm"},
@@ -192,7 +193,7 @@ TEST(test_no_units) {
     asked_line o = {.request = NULL};
     assert_int_equal(parse_line(&o, "table|-f|infm", line), EXIT_USAGE);
     assert_int_equal(parse_line(&o, "table|--preset|mujoco|--at|1m", line), EXIT_USAGE);
-    assert_string_equal(line, "depthprec: --unit: must be given: mujoco measures in extents");
+    assert_string_equal(line, "depthprec: --preset: needs extent: mujoco:extent=2");
     options_release(&o);
     tally_end(&t);
     options_release(&o);

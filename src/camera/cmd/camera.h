@@ -79,6 +79,10 @@ static inline const camera_asked *camera_of(const camera_asked *c, size_t index)
     return c->each != NULL ? &c->each[index] : c;
 }
 
+/** Its preset of that index in few words: the name, where no other has it, else what was said of it, else "name (2)".
+ * @return out */
+const char *camera_preset_label(const camera_asked *c, size_t index, char out[PRESET_WORDS_SIZE]);
+
 /** "0.01 mm": see lengths_text(). */
 static inline number_text camera_length(const camera_asked *c, double value, int digits) {
     return lengths_text(&c->lengths, value, digits);

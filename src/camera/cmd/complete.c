@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Values that follow from other options: those of presets, platforms and rasterizers where the user gave none. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -68,9 +69,6 @@ int camera_complete(camera_asked *c, const camera_use *use) {
     c->use = *use;
     for (int k = 0; k < CAMERA_KEYS; k++)
         c->words[k] = option_text(c->line, camera_option(camera_keys[k], name));
-    for (size_t i = 0; i < c->preset_count && c->lengths.unit != NULL && !option_given(c->line, "unit"); i++)
-        if (strcmp(c->presets[i]->unit, "extents") == 0)
-            return option_error("unit", "must be given: %s measures in %s", c->presets[i]->name, c->presets[i]->unit);
     if (c->platform != NULL && c->platform->remap == PLATFORM_SPREADS)
         return option_error(
             "platform",
@@ -82,6 +80,18 @@ int camera_complete(camera_asked *c, const camera_use *use) {
     if (status == EXIT_FINE)
         status = make(c);
     return status == EXIT_FINE && c->preset_count > 1 ? resolve_each(c) : status;
+}
+
+const char *camera_preset_label(const camera_asked *c, size_t index, char out[PRESET_WORDS_SIZE]) {
+    enum { SHORT = 28 };
+    size_t alike = 0;
+    for (size_t i = 0; i < c->preset_count; i++)
+        alike += c->presets[i] == c->presets[index];
+    if (alike > 1 && strlen(c->values[index].words) > SHORT)
+        snprintf(out, PRESET_WORDS_SIZE, "%s (%zu)", c->presets[index]->name, index + 1);
+    else
+        snprintf(out, PRESET_WORDS_SIZE, "%s", alike > 1 ? c->values[index].words : c->presets[index]->name);
+    return out;
 }
 
 bool camera_names_arith(const camera_asked *c) {

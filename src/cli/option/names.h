@@ -43,7 +43,7 @@ typedef struct name_list {
     const char *more; /**< what else is allowed, added to the list in a refusal; or null */
 } name_list;
 
-enum { NAMES_SIZE = 512 };
+enum { NAMES_SIZE = 1024 };
 
 /** Name `index`, words first; false behind the last. A word has no row. */
 bool names_get(const name_list *n, size_t index, list_item *item);

@@ -312,7 +312,7 @@ static void say_notes(page *p, void *item) {
 /* Says what the cameras have in common, and where there are several the planes of each. */
 static void say_cameras(page *p, const comparison *c) {
     const table_request *o = c->o;
-    char planes[1024] = "", more[64] = "";
+    char planes[1024] = "", more[64] = "", words[PRESET_WORDS_SIZE];
     if (o->camera.rounding != DP_ROUND_NEAREST)
         append(more, sizeof more, ", rounding %s", dp_rounding_name(o->camera.rounding));
     if (p->unit != NULL)
@@ -329,8 +329,9 @@ static void say_cameras(page *p, const comparison *c) {
     for (size_t k = 0; k < o->camera.preset_count; k++)
         for (size_t i = 0; i < c->each->all.count; i++)
             if (c->rows[i].camera == k) {
-                append(planes, sizeof planes, "%s%s near %s, far %s", k > 0 ? "; " : "", o->camera.presets[k]->name,
-                       number_full(c->rows[i].znear).text, number_full(c->rows[i].zfar).text);
+                append(planes, sizeof planes, "%s%s near %s, far %s", k > 0 ? "; " : "",
+                       camera_preset_label(&o->camera, k, words), number_full(c->rows[i].znear).text,
+                       number_full(c->rows[i].zfar).text);
                 if (o->camera.triangles.width > 0)
                     append(planes, sizeof planes, ", fov %s, %s", number_of(c->rows[i].fov_y, DIGITS_FOV).text,
                            c->rows[i].raster);
@@ -415,7 +416,9 @@ static void compare_setup(comparison *c, size_t i) {
     const bool slanted = o->camera.triangles.width > 0;
     each_setup_go(c->each, i);
     const dp_mapping mapping = c->each->setup->spec.mapping;
-    const char *engine = c->each->fields.preset;
+    char words[PRESET_WORDS_SIZE] = "";
+    const char *engine =
+        c->each->fields.preset != NULL ? camera_preset_label(&o->camera, c->each->all.cameras[i], words) : NULL;
     *r = (compared){
         .setup = c->each->setup,
         .camera = c->each->all.cameras[i],

@@ -356,6 +356,8 @@ int cmd_solve(void *request) {
     output out;
     solve_candidate items[SOLVE_CANDIDATES_MAX], slanted[SOLVE_CANDIDATES_MAX];
     solve_report r = {.o = o, .items = items, .slanted = slanted};
+    if (o->camera.values[0].sought)
+        return solve_preset(o);
     if (o->target == SOLVE_FOR_FRUSTA)
         return solve_frusta(o);
     int status = setup_decided(&o->camera);

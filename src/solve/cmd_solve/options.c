@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The command solve and its options. */
+#include <math.h>
+
 #include "cli/list.h"
 #include "cli/option/kinds.h"
 #include "report/output.h"
 #include "solve/cmd_solve/request.h"
+#include "solve/preset.h"
 
 static const name_list targets = {
     .words = (const char *const[]){"near", "far", "format", "mapping", "separation", "distance", "frusta", NULL}};
@@ -51,6 +54,14 @@ static const option_use uses[] = {
     TAKE("log-c"), TAKE("for"), TAKE("separation"), TAKE("link"),
     GROUP_OF(camera_slanted), GROUP_OF(camera_projected), GROUP_OF(output_written), END};
 
+/* A preset without the first number that it needs is asked about that. */
+static int complete(void *request) {
+    solve_request *o = request;
+    const preset_parameter *x = o->camera.preset_count == 1 ? preset_sought(o->camera.presets[0]) : NULL;
+    o->camera.values[0].sought = x != NULL && isnan(o->camera.values[0].given[0]);
+    return camera_request_complete(request);
+}
+
 static const option_rule rules[] = {
     CONFLICTS("error", "separation", NULL),
     CONFLICTS("range", "at", NULL),
@@ -70,11 +81,12 @@ static size_t asked_part(const void *request) {
 /* clang-format off */
 const command_row command_solve = {
     .name = "solve", .request = sizeof(solve_request), .places = places, .uses = uses, .rules = rules,
-    .complete = camera_request_complete, .operand = "",
+    .complete = complete, .operand = "",
     .summary = "near, far, format, mapping or distance for a separation",
     .example = "  depthprec solve --for distance -n 0.1 -f 1000 -F d24 -m d3d --separation 0.01\n"
     "  depthprec solve -F unorm24 -m d3d -f 10000 --separation 0.01 --at 5000\n"
     "  depthprec solve -n 0.1 -f 4000 --separation 0.001 --range 0.1:100\n"
-    "  depthprec solve --for far -n 0.1 -F d24 -m d3d --error 0.05 --at 500\n",
+    "  depthprec solve --for far -n 0.1 -F d24 -m d3d --error 0.05 --at 500\n"
+    "  depthprec solve --preset maplibre:pitch=60,height=800 --separation 10cm\n",
     .part = asked_part, .parts = parts};
 /* clang-format on */

@@ -60,6 +60,9 @@ typedef struct solve_report {
 /** solve --for frusta, all of it. @return an exit status */
 int solve_frusta(const solve_request *o);
 
+/** solve for a number that a preset leaves open, all of it. @return an exit status */
+int solve_preset(const solve_request *o);
+
 /** That the view is as deep as the separation: else there is no pair of surfaces to ask about. @return EXIT_FINE, or
  * EXIT_USAGE after one line on stderr */
 int solve_check_apart(const solve_request *o, solve_target target);

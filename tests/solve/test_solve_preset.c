@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * The number of a preset that keeps a separation, by planes of the test's own formula and dp_separation(): the ends
+ * pass, and next beyond them is one that fails; of those between fewer than one in a thousand fail, since they are
+ * tried and not proven; where there is no answer, none passes. The answer as printed passes.
+ */
+#include "solve/preset.h"
+
+#include "printed.h"
+#include "support.h"
+
+static const double pi = 3.14159265358979323846;
+
+/* The globe of MapLibre, metres: near half a pixel, far behind the globe, the middle 1.5 heights away. */
+static dp_setup globe_at(double zoom, double latitude, int height, double *focus) {
+    const double radius = 6371008.8, pixel = 2 * pi * radius * cos(latitude * pi / 180) / (512 * pow(2, zoom));
+    dp_spec spec = dp_spec_default();
+    dp_format formats[2];
+    dp_setup setup;
+    dp_format_parse("unorm24", formats);
+    spec.format = formats[0];
+    spec.mapping = DP_MAPPING_GL;
+    spec.model = DP_MODEL_FLOAT;
+    *focus = 1.5 * height * pixel;
+    spec.znear = .5 * pixel;
+    spec.zfar = *focus + 2 * radius;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    return setup;
+}
+
+static preset_problem problem_of(const char *text, double limit, double z) {
+    preset_problem p = {.spec = dp_spec_default(), .limit = limit, .lo = z, .hi = z, .unit = unit_find("m")};
+    char error[PRESET_ERROR_SIZE];
+    dp_format formats[2];
+    assert_true(preset_read(text, &p.row, &p.values, error));
+    dp_format_parse(p.row->format, formats);
+    p.spec.format = formats[0];
+    p.spec.mapping = p.row->mapping;
+    p.spec.model = DP_MODEL_FLOAT;
+    return p;
+}
+
+/* Within a part in 10^9 of the limit the test's planes and the preset's are off by rounding. */
+static bool keeps(double zoom, double latitude, int height, double limit, double z, bool surely) {
+    double focus;
+    const dp_setup setup = globe_at(zoom, latitude, height, &focus);
+    const double at = isnan(z) ? focus : z;
+    return at >= setup.spec.znear && at <= setup.spec.zfar &&
+           dp_separation(&setup, at) <= limit * (surely ? 1 + 1e-9 : 1 - 1e-9);
+}
+
+static bool fails_beside(const preset_problem *p, double end, int side) {
+    for (double apart = 1e-13; apart < 1e-9; apart *= 2)
+        if (!preset_passes(p, end * (1 + side * apart)))
+            return true;
+    return false;
+}
+
+TEST(test_zoom) {
+    rng r = rng_make("zooms");
+    tally t = {.name = "zooms that keep a separation"};
+    int ends = 0, inside = 0, failing = 0;
+    for (int i = 0; i < 60; i++) {
+        const double latitude = floor(rng_uniform(&r, -80, 80)), limit = rng_log(&r, 0.01, 1e4);
+        const int height = 200 + (int)rng_below(&r, 1500);
+        const double z = i % 2 == 0 ? (double)NAN : rng_log(&r, 100, 1e6);
+        char text[96];
+        snprintf(text, sizeof text, "maplibre-globe:latitude=%g,height=%d", latitude, height);
+        const preset_problem p = problem_of(text, limit, z);
+        preset_answer a;
+        preset_solve(&p, &a);
+        for (int k = 0; k <= 200 && a.possible; k++, inside++)
+            failing += !keeps(a.from + (a.to - a.from) * k / 200, latitude, height, limit, z, true);
+        for (int k = 0; k < 2 && a.possible; k++) {
+            const double end = k == 0 ? a.from : a.to;
+            const bool turns = k == 0 ? a.below : a.above;
+            ends += turns;
+            TALLY(&t, keeps(end, latitude, height, limit, z, true), "%s %g %g: fails at %.17g", text, limit, z, end);
+            TALLY(&t, !turns || fails_beside(&p, end, k == 0 ? -1 : 1), "%s %g %g: passes beside %.17g", text, limit, z,
+                  end);
+        }
+        for (int k = 0; k <= 260 && !a.possible; k++)
+            TALLY(&t, !keeps(k / 10., latitude, height, limit, z, false), "%s %g %g: %g", text, limit, z, k / 10.);
+    }
+    assert_true(ends > 40 && inside > 5000 && 1000 * failing < inside);
+    tally_end(&t);
+}
+
+/* The program says the same number, rounded to the side on which it holds. */
+TEST(test_printed) {
+    printed text = print_of("solve --preset maplibre-globe:height=800 --separation 100m");
+    const preset_problem p = problem_of("maplibre-globe:height=800", 100, (double)NAN);
+    preset_answer a;
+    preset_solve(&p, &a);
+    assert_int_equal(text.status, 0);
+    const char *zoom = strstr(text.out, "zoom ");
+    assert_non_null(zoom);
+    const double said = strtod(zoom + strlen("zoom "), NULL);
+    assert_true(said >= a.from && said < a.from + 1e-3 && preset_passes(&p, said) && a.below && !a.above);
+    assert_true(keeps(said, 0, 800, 100, (double)NAN, true));
+    assert_false(keeps(said - 1, 0, 800, 100, (double)NAN, false)); /* steps come and go by less than a level */
+}
