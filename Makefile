@@ -260,7 +260,7 @@ web:
 WEB_LESS := code image method model scene shader shadow system texture
 WEB_FROM := code/language method/choose method/estimate method/families method/interval method/limit method/method \
     method/truth method/ways method/cmd_methods/methods shader/constants shader/decode texture/recognise texture/cmd_texture/products
-WEB_NOT := camera/profile_file camera/cmd/profile cli/junit cli/link cli/stop cli/cmd_help/completions draw/canvas draw/pixels \
+WEB_NOT := camera/figure_cost camera/profile_file camera/cmd/profile cli/junit cli/link cli/stop cli/cmd_help/completions draw/canvas draw/pixels \
     judge/listing judge/read_pairs judge/written judge/cmd_judge/shader probe/compile probe/opengl probe/probe probe/vulkan \
     probe/vulkan_compute quantity/cmd_table/constants quantity/cmd_table/levels report/output_file report/terminal solve/camera \
     solve/check solve/figure_needs solve/reader solve/requirement solve/setting solve/view solve/cmd_check/check_report solve/cmd_check/command \

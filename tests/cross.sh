@@ -72,7 +72,7 @@ commands="
 table --at 0.1:1000:log:2500 -F fp16,fp32,unorm16,unorm24,float5.10,unorm20 $every,linear,log --csv --full
 table --at 0.1:1000:lin:500 -F all $every,linear,log --rounding zero --ortho --csv
 table --at 0.1:1000:lin:500 -F all $every,linear,log --rounding even --csv
-table -f inf --at 0.1:1e6:log:500 -F all -m all --model staged --csv
+table -f inf --at 0.1:1e6:log:500 -F all -m d3d,reversed --model staged --csv
 each arithmetic table --at 0.1:1000:log:100 -F all $every --model float --csv --arith
 each transforms budget -n 0.3 -F all $every --at 17.25 --from-origin 1000 --csv --composition
 list encodings --json
@@ -80,7 +80,7 @@ list methods --json
 list presets --json
 plot stability linearize --csv
 plot stability interval --csv
-zfight -n 1 -f 1.2 -F unorm16 -m all --csv
+zfight -n 1 -f 1.2 -F unorm16 -m d3d,reversed --csv
 zfight -n 1 -f 1.5 -F fp16 --sample 2000 --separation 0.0001 --json
 solve -f 1000 -F all $every --separation 0.01 --at 100 --json
 solve --for distance -n 0.1 -F unorm24 -m d3d --separation 0.01 --json

@@ -231,7 +231,7 @@ static const struct {
     int count;
     double dash[6];
 } strokes[] = {
-    {0, {0}}, {2, {4, 2.2}}, {2, {1.2, 1.8}}, {4, {5, 2, 1.2, 2}}, {6, {5, 1.8, 1.2, 1.8, 1.2, 1.8}}, {2, {8, 3}},
+    {0, {0}}, {2, {4, 2.2}}, {2, {1.2, 1.8}}, {4, {5, 2, 1.2, 2}}, {2, {1.2, 4.5}}, {2, {8, 3}},
 };
 
 void drawn_style_is(const drawn *d, const drawn_entry *e, int colour, int stroke, drawn_shape marker, bool thin) {

@@ -97,7 +97,7 @@ half_of_floats() { # the codes of 1e-19 and of 1, which are window depths near/z
 check "half of all floats" half_of_floats
 levels() { # of the sensor in its picture, as draw.sh makes the file
     grep -q '78 values.*20 at 1 m.*from 5.7 m on' README.md && cd "$scratch" &&
-        "$DEPTHPREC" texture --synthetic plane --parameter distance=2 --parameter turn=45 --size 640x480 --product eye \
+        "$DEPTHPREC" texture --synthetic plane --parameter distance=2,turn=45 --size 640x480 --product eye \
             --as stereo:575.816,0.075,0.125 -q -o z.npy &&
         "$DEPTHPREC" texture z.npy --metric 1m --product eye --as even:0.001 -q -o camera.npy &&
         "$DEPTHPREC" texture camera.npy --metric 1m -q --histogram levels.svg --csv >csv || return

@@ -309,7 +309,7 @@ at_far() { # at far the channels are 255, 0 and not the 0, 0 of frac, which is s
 check "EncodeFloatRG of the far plane" at_far
 grey() { # five walls at equal distances: window depth is above .97 from the second on, Linear01 even
     for product in raw linear01; do
-        depthprec texture --synthetic steps --parameter even=1 --parameter count=5 --parameter to=17 -n .3 -f 20 --size 5x1 \
+        depthprec texture --synthetic steps --parameter even=1,count=5,to=17 -n .3 -f 20 --size 5x1 \
             -F d24 -m d3d --product $product -o "$scratch/$product.npy" -q || return 1
         od -An -v -tf4 -w4 -j128 "$scratch/$product.npy" | awk -v product=$product '
             { z = 1 + 4 * (NR - 1); want = product == "raw" ? 20 / 19.7 * (1 - 0.3 / z) : z / 20; off = $1 - want }

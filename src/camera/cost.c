@@ -5,15 +5,17 @@
 
 cost cost_of(const dp_format *format, dp_mapping mapping) {
     const dp_mapping_row *row = dp_mapping_get(mapping);
-    cost c = {.bytes = (format->bits + 7) / 8, .available = "no API: for study", .caution = "", .effort = ""};
+    cost c = {
+        .early = true, .bytes = (format->bits + 7) / 8, .available = "no API: for study", .caution = "", .effort = ""};
     for (size_t i = 0; i < dp_format_count(); i++)
         if (strcmp(dp_format_get(i)->format.name, format->name) == 0) {
             const dp_format_row *named = dp_format_get(i);
-            c = (cost){named->buffer, named->bytes, named->rank, named->available, named->caution, ""};
+            c = (cost){named->buffer, named->bytes, true, named->rank, named->available, named->caution, ""};
         }
     if (row != NULL) {
         c.rank += row->rank;
         c.effort = row->effort;
+        c.early = row->written == DP_WRITTEN_BY_MATRIX || row->written == DP_WRITTEN_BY_VERTEX;
     }
     return c;
 }

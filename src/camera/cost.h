@@ -4,11 +4,14 @@
 #ifndef CAMERA_COST_H
 #define CAMERA_COST_H
 
+#include <stdbool.h>
+
 #include "depthprec/depthprec.h"
 
 typedef struct cost {
     int buffer;            /**< some API has the format as a depth buffer */
     int bytes;             /**< per pixel, with the padding that the format is stored with */
+    bool early;            /**< the depth test, and that of whole tiles, comes before the fragment shader */
     int rank;              /**< orders equal bytes: 0 is to be had everywhere without a change to the renderer */
     const char *available; /**< which APIs have the format */
     const char *caution;   /**< what is easily overlooked about that, one line; "" when nothing */

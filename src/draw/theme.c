@@ -51,7 +51,7 @@ static const struct {
     int count;
     double dash[CANVAS_DASHES]; /* in line widths */
 } strokes[THEME_STROKES] = {
-    {0, {0}}, {2, {4, 2.2}}, {2, {1.2, 1.8}}, {4, {5, 2, 1.2, 2}}, {6, {5, 1.8, 1.2, 1.8, 1.2, 1.8}}, {2, {8, 3}},
+    {0, {0}}, {2, {4, 2.2}}, {2, {1.2, 1.8}}, {4, {5, 2, 1.2, 2}}, {2, {1.2, 4.5}}, {2, {8, 3}},
 };
 
 /* viridis (van der Walt and Smith 2015) at eleven equal steps; straight lines between them stay within 2/255. */

@@ -13,6 +13,10 @@
 
 enum { THEME_COLOURS = 8, THEME_STROKES = 6, THEME_MARKERS = 6 };
 
+/** Strokes. Dashes mean reversed depth, in every figure; what else is told apart by the stroke is solid or dotted, and
+ * so is a limit. So odd ones are dashed in one way or another, and even ones are not. */
+enum { THEME_SOLID = 0, THEME_REVERSED = 1, THEME_DOTTED = 2, THEME_SPARSE = 4 };
+
 typedef struct theme {
     const char *name;
     canvas_colour background;

@@ -7,8 +7,8 @@
 #include "core/append.h"
 #include "core/elementary.h"
 
-/* Plain decades lie in [10^PLAIN_LO, 10^PLAIN_HI]. */
-enum { PLAIN_LO = -3, PLAIN_HI = 4 };
+/* Plain decades lie in [10^PLAIN_LO, 10^PLAIN_HI]; of shares they are decimals down to 10^PERCENT_LO. */
+enum { PLAIN_LO = -3, PLAIN_HI = 4, PERCENT_LO = -6 };
 
 static void add_tick(ticks *out, const chart_axis *axis, double at, const char *text) {
     double share = chart_axis_share(axis, at);
@@ -79,7 +79,7 @@ static void linear(const chart_axis *axis, int room, ticks *out) {
 static void decades(const chart_axis *axis, int room, ticks *out) {
     int first = (int)ceil(dp_log10(axis->lo) - 1e-9), last = (int)floor(dp_log10(axis->hi) + 1e-9);
     const bool percent = axis->unit != NULL && axis->unit[0] == '%'; /* 100 %, not 10^2 % */
-    const bool wide = first < PLAIN_LO || last > PLAIN_HI;
+    const bool powers = first < (percent ? PERCENT_LO : PLAIN_LO) || last > PLAIN_HI;
     int stride = 1;
     while ((last - first) / stride + 1 > room)
         stride++;
@@ -88,9 +88,10 @@ static void decades(const chart_axis *axis, int room, ticks *out) {
     int origin = floor((double)last / stride) - ceil((double)first / stride) < 1 ? first : 0;
     for (int power = first - 1; power <= last; power++) {
         const double decade = dp_pow(10, power);
-        const bool powers = percent ? power < PLAIN_LO || power > PLAIN_HI : wide;
         char text[TICKS_TEXT] = "";
-        if ((power - origin) % stride == 0)
+        if ((power - origin) % stride == 0 && power < PLAIN_LO && !powers)
+            snprintf(text, sizeof text, "%.*f", -power, decade);
+        else if ((power - origin) % stride == 0)
             ticks_label(decade, powers, text);
         add_tick(out, axis, decade, text);
         for (int factor = 2; stride == 1 && factor < 10; factor++) {

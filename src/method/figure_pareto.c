@@ -5,6 +5,7 @@
 
 #include "core/elementary.h"
 #include "draw/notes.h"
+#include "draw/theme.h"
 #include "plot/figure.h"
 
 /* A log axis has no 0: what is exact is drawn here, and the legend says so. */
@@ -152,7 +153,7 @@ static void add_memory(const field *f, chart *out, chart_panel *panel) {
     chart_series *s = f->limit > 0 ? chart_add_series(out, panel, CHART_LINE, 2) : NULL;
     if (s == NULL)
         return;
-    s->style = (chart_style){-1, 1, -1, true};
+    s->style = (chart_style){-1, THEME_DOTTED, -1, true};
     snprintf(s->name, sizeof s->name, "moving the same bytes");
     s->x[0] = s->x[1] = f->limit;
     s->y[0] = panel->y.lo;

@@ -31,15 +31,16 @@ static int stroke_of(const figure_request *r, size_t i) {
     int before = 0;
     for (size_t k = 0; k < first; k++)
         before += first_alike(r, k, true) == k && r->setups[k].reversed == r->setups[i].reversed;
-    return 2 * before + (r->setups[i].reversed != 0);
+    return THEME_DOTTED * before + (r->setups[i].reversed != 0 ? THEME_REVERSED : THEME_SOLID);
 }
 
 chart_style figure_style(const figure_request *request, size_t i) {
     const int formats = kinds(request, request->count, false);
     const bool own = formats == 1 || kinds(request, request->count, true) == 1;
     const int colour = own ? (int)i : kinds(request, first_alike(request, i, false), false);
-    return (chart_style){colour, (size_t)formats < request->count ? stroke_of(request, i) : colour / THEME_COLOURS,
-                         colour, false};
+    return (chart_style){
+        colour, (size_t)formats < request->count ? stroke_of(request, i) : THEME_DOTTED * (colour / THEME_COLOURS),
+        colour, false};
 }
 
 bool figure_draws_codes(const dp_format *format) {

@@ -62,9 +62,11 @@ enum {
     FIGURE_METHODS = 1 << 17,    /**< methods of a family, in one of its cases: a format and a mapping */
     FIGURE_TIMED = 1 << 18,      /**< between planes that are given; others walk over far/near */
     FIGURE_MINE = 1 << 16,       /**< functions of somebody's among the methods of linearize */
-    FIGURE_FARS = 1 << 14,       /**< several far planes, and no formats */
-    FIGURE_BESIDE = 1 << 15,     /**< curves that another camera's can stand beside, on axes that can be given */
-    FIGURE_STAGED = 1 << 12,     /**< codes that are reached: staged unless --model is given, where NDC is of [-1, 1] */
+    FIGURE_COST = 1 << 19,   /**< all mappings that the camera can have, but those of engines, unless some are named */
+    FIGURE_SMALL = 1 << 20,  /**< formats of few codes, and planes at which they are seen */
+    FIGURE_FARS = 1 << 14,   /**< several far planes, and no formats */
+    FIGURE_BESIDE = 1 << 15, /**< curves that another camera's can stand beside, on axes that can be given */
+    FIGURE_STAGED = 1 << 12, /**< codes that are reached: staged unless --model is given, where NDC is of [-1, 1] */
 };
 
 /**
@@ -113,7 +115,8 @@ void figure_range(const figure_request *request, double *lo, double *hi);
 chart_panel *figure_panel(const figure_request *request, chart *out, chart_axis y);
 
 figure_build distribution_build, share_build, error_build, interval_build, budget_build, needs_build, map_build,
-    linear01_build, pareto_build, stability_build, normals_build, shadow_build, world_build, fight_build, scene_build;
+    linear01_build, pareto_build, cost_build, stability_build, normals_build, shadow_build, world_build, fight_build,
+    scene_build;
 
 /** Figures whose measuring takes long or differs from run to run, drawn of what was measured. */
 const char *pareto_draw(const method_family_row *family, const bench_result *results, size_t count, chart *out);

@@ -7,6 +7,11 @@ static const figure_row rows[] = {
      "the curve d(z) with every code carried over to z (up to 128 codes); codes per unit of depth for real formats",
      NULL, "Codes along z", CHART_SETUPS, FIGURE_SETUPS | FIGURE_SIGNED | FIGURE_STAGED | FIGURE_BESIDE, NULL, NULL,
      distribution_build},
+    {"staircase", NULL,
+     "distribution of a 4-bit integer and of a float of 3 + 3 bits, the article's of Reed 2015: every code carried "
+     "over to z",
+     NULL, "Codes of small formats along z", CHART_SETUPS,
+     FIGURE_SETUPS | FIGURE_SIGNED | FIGURE_STAGED | FIGURE_BESIDE | FIGURE_SMALL, NULL, NULL, distribution_build},
     {"share", NULL, "share of the codes that are left between z and far", NULL, "Share of the codes between z and far",
      CHART_SETUPS, FIGURE_SETUPS | FIGURE_FLOAT | FIGURE_SIGNED | FIGURE_STAGED | FIGURE_BESIDE, NULL, NULL,
      share_build},
@@ -30,6 +35,10 @@ static const figure_row rows[] = {
     {"map", NULL, "near against far, colour = worst z-fighting interval over the range, or the interval at --at Z",
      NULL, "Worst z-fighting interval for each near and far plane", CHART_PANELS,
      FIGURE_SETUPS | FIGURE_AT | FIGURE_TOLERANCE | FIGURE_SIGNED, NULL, NULL, map_build},
+    {"cost", NULL,
+     "what each format and mapping costs, bytes and early z, against the separation that is certain at a depth", NULL,
+     "Separation and what it costs", CHART_SETUPS,
+     FIGURE_SETUPS | FIGURE_AT | FIGURE_FLOAT | FIGURE_GUARANTEED | FIGURE_COST, NULL, NULL, cost_build},
     {"pareto", NULL,
      "methods of each family, or of one: ns per element against worst error, log-log, the Pareto front marked", NULL,
      "Time and worst error of methods", CHART_SETUPS, FIGURE_METHODS | FIGURE_TIMED | FIGURE_FLOAT | FIGURE_MINE, "all",
@@ -49,7 +58,8 @@ static const figure_row rows[] = {
      NULL, "Safe separation and jitter in large worlds", 1, FIGURE_SETUPS | FIGURE_AT | FIGURE_FLOAT | FIGURE_BINARY32,
      NULL, "fp32", world_build},
     {"fight", NULL,
-     "a wall and a decal before it, pixel by pixel, as slanted triangles: nearer than is guaranteed, and as far as "
+     "a wall and a decal in front of it, pixel by pixel, as slanted triangles: nearer than is guaranteed, and as far "
+     "as "
      "that",
      NULL, "Z-fighting of a wall and a decal, as rasterized", 1,
      FIGURE_SETUPS | FIGURE_AT | FIGURE_FLOAT | FIGURE_BINARY32 | FIGURE_DRAWN, NULL, "unorm24", fight_build},

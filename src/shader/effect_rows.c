@@ -228,7 +228,7 @@ static const effect_row rows[] = {
      .given = true, .source = DEPTH_TEXTURE "; Barre-Brisebois and Bouchard 2011, translucency by thickness",
      .kind = EFFECT_FADE, .apart = eye_apart, .output = soft_particles, .shader = soft_particles_shader,
      .tint = {0, 0, 0, 1}},
-    {.name = "ray-march", .note = "saturate((scene - ray)/step): how much of its next step is before the surface",
+    {.name = "ray-march", .note = "saturate((scene - ray)/step): how much of its next step is in front of the surface",
      .parameters = {
          {"step", "what the ray gains in eye depth from one sample to the next", "scene", 1e-12, 1e12, 0.1,
           .whole = false},

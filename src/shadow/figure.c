@@ -6,6 +6,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "core/append.h"
+#include "draw/theme.h"
 #include "plot/figure.h"
 #include "shadow/shadow.h"
 
@@ -84,15 +86,31 @@ static void add_panel(chart *out, const figure_request *request, size_t i) {
         add_curve(out, panel, &m, group_at, k, (chart_style){k, 0, k, false}, "", groups[k].name);
     for (int k = 0; k < SHADOW_WAY_COUNT; k++)
         if (isfinite(gap_at(&m, k, panel->x.hi)))
-            add_curve(out, panel, &m, gap_at, k, (chart_style){-1, k, -1, false}, "gap, ",
+            add_curve(out, panel, &m, gap_at, k, (chart_style){-1, THEME_DOTTED * k, -1, false}, "gap, ",
                       shadow_way_name((shadow_way)k));
 }
 
+static double texel_of(const figure_request *request, size_t map) {
+    shadow_need need;
+    shadow_need_of(&request->maps[map].light, &need);
+    return need.texel;
+}
+
+/* Cascades are alike: of many the two ends are shown. */
 const char *shadow_build(const figure_request *request, chart *out) {
     if (!(request->maps[0].light.triangles.slant_hi > 0.0))
         return "plot shadow: --angle must be above 0";
+    size_t least = 0, most = 0;
+    for (size_t i = 1; i < request->map_count; i++) {
+        least = texel_of(request, i) < texel_of(request, least) ? i : least;
+        most = texel_of(request, i) > texel_of(request, most) ? i : most;
+    }
     for (size_t i = 0; i < request->map_count; i++)
-        add_panel(out, request, i);
+        if (request->map_count <= 2 || i == least || i == most)
+            add_panel(out, request, i);
+    if (request->map_count > 2)
+        append(out->subtitle, sizeof out->subtitle, "; of %zu cascades the finest and the coarsest",
+               request->map_count);
     chart_fit(out);
     return NULL;
 }

@@ -11,6 +11,7 @@
 #include "core/elementary.h"
 #include "core/engine.h"
 #include "draw/notes.h"
+#include "draw/theme.h"
 #include "plot/guaranteed.h"
 #include "solve/check.h"
 #include "solve/model.h"
@@ -96,7 +97,8 @@ static void add_curve(const figure_request *r, chart *out, chart_panel *panel, c
                                      : guaranteed_separation(out, panel, &q, setup);
     if (s == NULL)
         return;
-    s->style = (chart_style){is_error ? COLOUR_ERROR : COLOUR_SEPARATION, is_error ? 1 : 0, -1, false};
+    s->style =
+        (chart_style){is_error ? COLOUR_ERROR : COLOUR_SEPARATION, is_error ? THEME_DOTTED : THEME_SOLID, -1, false};
     snprintf(s->name, sizeof s->name, "%s", is_error ? "error given" : "separation given");
 }
 

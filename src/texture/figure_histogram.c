@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "depthprec/batch.h"
+#include "draw/theme.h"
 
 enum { BINS = 96 };
 
@@ -91,7 +92,7 @@ static void add_steps(chart *out, chart_panel *panel, const double *counts, int 
     chart_series *s = chart_add_series(out, panel, CHART_LINE, 2 * BINS);
     if (s == NULL)
         return;
-    s->style = (chart_style){.colour = look, .stroke = look, .marker = -1};
+    s->style = (chart_style){.colour = look, .stroke = THEME_DOTTED * look, .marker = -1};
     snprintf(s->name, sizeof s->name, "%s", name);
     for (size_t i = 0; i < 2 * BINS; i++) {
         s->x[i] = chart_axis_at(&panel->x, (double)((i + 1) / 2) / BINS);

@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "core/append.h"
+#include "draw/theme.h"
 #include "draw/ticks.h"
 #include "plot/envelope.h"
 
@@ -40,7 +41,11 @@ static void add_curve(const figure_request *request, chart *out, chart_panel *pa
     chart_series *s = q.hi > q.lo ? envelope_curve(out, panel, &q) : NULL;
     if (s == NULL)
         return;
-    s->style = (chart_style){(int)(several ? far : index), (int)index, -1, false};
+    s->style = (chart_style){(int)(several ? far : index),
+                             !window           ? THEME_DOTTED * (int)index
+                             : setup->reversed ? THEME_REVERSED
+                                               : THEME_SPARSE,
+                             -1, false};
     ticks_label(setup->spec.zfar, setup->spec.zfar >= 1e6, text);
     if (several)
         snprintf(s->name, sizeof s->name, "far %s: ", text);

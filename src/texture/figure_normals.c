@@ -6,6 +6,7 @@
 #include "core/append.h"
 #include "core/bits.h"
 #include "core/elementary.h"
+#include "draw/theme.h"
 #include "plot/figure.h"
 #include "plot/refine.h"
 #include "texture/normal_errors.h"
@@ -19,7 +20,7 @@ enum { SIDE = 48, LINES = 1080, RADIUS = 16, PLANE = 0, SPHERE };
 
 static const char *const surfaces[] = {"plane at 60\u00b0", "outline of a sphere"};
 static const int methods[] = {NORMAL_LOW, NORMAL_MEDIUM, NORMAL_HIGH, NORMAL_PROJECTIVE}; /* behind them the bound */
-enum { SURFACES = sizeof surfaces / sizeof surfaces[0], BOUND = sizeof methods / sizeof methods[0] };
+enum { BOUND = sizeof methods / sizeof methods[0] };
 
 static bool middle(const dp_setup *setup, texture_camera *camera) {
     camera_spec spec = camera_spec_default();
@@ -68,36 +69,43 @@ static double drawn_error(const dp_setup *setup, size_t surface, size_t method, 
     return (surface == PLANE ? m.inside.p99 : whole ? m.edges.mean : (double)NAN) * 180 / M_PI;
 }
 
-static void add_curve(const figure_request *request, const dp_setup *setup, normals_error *error, chart *out,
-                      chart_panel *panel, size_t surface, size_t method) {
+/* The worst of `count` set-ups. */
+static void add_curve(const figure_request *request, const dp_setup *setups, size_t count, normals_error *error,
+                      chart *out, chart_panel *panel, size_t surface, size_t method) {
     const chart_axis *x = &panel->x;
     const int slices = request->columns / COLUMNS_EACH, last = slices * DEPTHS_EACH - 1;
     chart_series *s = chart_add_series(out, panel, CHART_LINE, (size_t)slices);
     if (s == NULL)
         return;
-    s->style = method == BOUND ? (chart_style){.colour = -1, .stroke = 1, .marker = -1, .thin = true}
-                               : (chart_style){.colour = (int)method, .stroke = (int)method, .marker = (int)method};
+    s->style =
+        method == BOUND
+            ? (chart_style){.colour = -1, .stroke = THEME_DOTTED, .marker = -1, .thin = true}
+            : (chart_style){.colour = (int)method, .stroke = THEME_DOTTED * (int)(method % 2), .marker = (int)method};
     snprintf(s->name, sizeof s->name, "%s",
              method == BOUND ? "bound of projective" : normal_methods[methods[method]].name);
     for (int k = 0; k < slices; k++) {
         double worst = NAN;
         for (int i = k * DEPTHS_EACH; i < (k + 1) * DEPTHS_EACH; i++) /* fmax drops NaN */
-            worst = fmax(worst, error(setup, surface, method, refine_edge(x->scale, x->lo, x->hi, i, last)));
+            for (size_t j = 0; j < count; j++)
+                worst = fmax(worst, error(&setups[j], surface, method, refine_edge(x->scale, x->lo, x->hi, i, last)));
         s->x[k] = refine_edge(x->scale, x->lo, x->hi, 2 * k + 1, 2 * slices);
         s->y[k] = worst > 0 ? worst : (double)NAN; /* a log axis has no 0 */
     }
 }
 
+/* Outlines are much the same in each format: all of them are one panel, planes have one each. */
 const char *normals_draw(const figure_request *request, normals_error *error, chart *out) {
     const chart_axis y = {.scale = CHART_LOG, .label = "angular error", .key = "error", .unit = "degrees"};
-    for (size_t i = 0; i < request->count * SURFACES; i++) {
-        const size_t setup = i / SURFACES, surface = i % SURFACES;
-        const bool alone = request->count == 1; /* then the subtitle names it */
+    const bool alone = request->count == 1; /* then the subtitle names it */
+    for (size_t i = 0; i <= request->count; i++) {
+        const bool plane = i < request->count;
         chart_panel *panel = figure_panel(request, out, y);
-        snprintf(panel->title, sizeof panel->title, "%s%s%s", alone ? "" : request->names[setup], alone ? "" : ": ",
-                 surfaces[surface]);
-        for (size_t method = 0; method < BOUND + (surface == PLANE); method++)
-            add_curve(request, &request->setups[setup], error, out, panel, surface, method);
+        snprintf(panel->title, sizeof panel->title, "%s%s%s%s", alone || !plane ? "" : request->names[i],
+                 alone || !plane ? "" : ": ", surfaces[plane ? PLANE : SPHERE],
+                 alone || plane ? "" : ", the worst of all");
+        for (size_t method = 0; method < (plane ? BOUND + 1 : BOUND); method++)
+            add_curve(request, &request->setups[plane ? i : 0], plane ? 1 : request->count, error, out, panel,
+                      plane ? PLANE : SPHERE, method);
     }
     chart_fit(out);
     return NULL;

@@ -115,7 +115,7 @@ const synthetic_row synthetic_rows[] = {
      {"distance", "eye depth in the middle of the image", LENGTH, 10, .whole = false},
      {"tilt", "the upper side leans back; 90 would be a floor", "degrees", -89.9, 89.9, 0, .whole = false},
      {"turn", "the right side leans back", "degrees", -89.9, 89.9, 0, .whole = false}}},
-    [SYNTHETIC_SPHERE] = {"sphere", NULL, "a sphere on the view axis, before a wall or the sky", NULL, sphere_hit,
+    [SYNTHETIC_SPHERE] = {"sphere", NULL, "a sphere on the view axis, in front of a wall or the sky", NULL, sphere_hit,
      NULL, {
      {"distance", "eye depth of the centre, more than the radius", LENGTH, 10, .whole = false},
      {"radius", "of the sphere", LENGTH, 3, .whole = false},
@@ -125,7 +125,7 @@ const synthetic_row synthetic_rows[] = {
      {"to", "eye depth of the rightmost", LENGTH, 300, .whole = false},
      {"count", "how many", "steps", 2, 65536, 16, .whole = true},
      {"even", "0: in equal ratios of depth; 1: at equal distances", "", 0, 1, 0, .whole = true}}},
-    [SYNTHETIC_DECALS] = {"decals", NULL, "a decal before each tile of a wall, the tiles in equal ratios of depth",
+    [SYNTHETIC_DECALS] = {"decals", NULL, "a decal in front of each tile of a wall, the tiles in equal ratios of depth",
      NULL, decals_hit, decals_pair, {
      {"gap", "from a decal to the wall behind it", LENGTH, 0.01, .whole = false},
      {"from", "eye depth of the first tile, top left", LENGTH, 1, .whole = false},

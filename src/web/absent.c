@@ -65,6 +65,7 @@ int link_write(const asked_line *line) {
         return "plot: this figure is not in the page: the program has it";                                             \
     }
 
+ABSENT_FIGURE(cost_build)
 ABSENT_FIGURE(fight_build)
 ABSENT_FIGURE(linear01_build)
 ABSENT_FIGURE(scene_build)

@@ -169,7 +169,7 @@ const PLAIN = [
 
 // A command takes these where it is given nothing. A preset gives something else.
 const STARTS = {
-    near: "0.1", far: "1000", format: "all", mapping: "all", model: "", arith: "",
+    near: "0.1", far: "1000", format: "all", mapping: "d3d,reversed", model: "", arith: "",
     unit: "", viewport: "", slant: "", at: "",
 };
 

@@ -10,6 +10,7 @@
 #include "core/append.h"
 #include "core/elementary.h"
 #include "core/engine.h"
+#include "draw/theme.h"
 #include "plot/figure.h"
 #include "world/reach.h"
 
@@ -41,7 +42,7 @@ static void add_schemes(chart *out, chart_panel *panel, const world_asked *a, wo
         chart_series *line = chart_add_series(out, panel, CHART_LINE, POINTS);
         if (line == NULL)
             return;
-        line->style = (chart_style){(int)(k % 4), (int)(k / 4), -1, false};
+        line->style = (chart_style){(int)(k % 4), THEME_DOTTED * (int)(k / 4), -1, false};
         snprintf(line->name, sizeof line->name, "%s", s.row->name);
         if (s.row->size != NULL)
             append(line->name, sizeof line->name, ":%.7g", s.size);

@@ -321,6 +321,13 @@ TEST(test_twice) {
     assert_int_equal(parse_line(&o, "texture|x|--parameter|a=1|--parameter|b=2", line), EXIT_FINE);
     assert_int_equal(ASKED(texture, o)->image.parameter_count, 2);
     assert_int_equal(parse_line(&o, "texture|x|--parameter|a=1|--parameter|a=2", line), EXIT_USAGE);
+    assert_int_equal(parse_line(&o, "texture|x|--parameter|a=1,b=2|--parameter|c=-3", line), EXIT_FINE);
+    assert_true(ASKED(texture, o)->image.parameter_count == 3 && ASKED(texture, o)->image.parameters[1].value == 2 &&
+                strcmp(ASKED(texture, o)->image.parameters[1].name, "b") == 0 &&
+                ASKED(texture, o)->image.parameters[2].value == -3);
+    assert_int_equal(parse_line(&o, "texture|x|--parameter|a=1,a=2", line), EXIT_USAGE);
+    assert_int_equal(parse_line(&o, "texture|x|--parameter|a=1,", line), EXIT_USAGE);
+    assert_int_equal(parse_line(&o, "texture|x|--parameter|a=1,,b=2", line), EXIT_USAGE);
     assert_int_equal(parse_line(&o, "table|-q|-q|--json|--json|--ortho|--ortho", line), EXIT_FINE);
     tally_end(&t);
     options_release(&o);

@@ -752,7 +752,7 @@ TEST(test_own) {
     assert_true(ASKED(table, o)->camera.zfar == 1000 &&
                 ASKED(table, o)->camera.format_count == 4); /* the unorm24 of depth24plus is there already */
     assert_string_equal(ASKED(table, o)->camera.formats[2].name, "fp32");
-    assert_int_equal(parse(&o, "table", "mapping", "log,all,gl", line), EXIT_FINE);
+    assert_int_equal(parse(&o, "table", "mapping", "log,d3d,reversed,gl", line), EXIT_FINE);
     assert_true(ASKED(table, o)->camera.mapping_count == 4 && ASKED(table, o)->camera.mappings[0] == DP_MAPPING_LOG &&
                 ASKED(table, o)->camera.mappings[3] == DP_MAPPING_GL);
     assert_int_equal(parse(&o, "prepass", "against", "fma,ONCE,fma", line), EXIT_FINE);

@@ -193,9 +193,9 @@ TEST(curves_show_the_library) {
     }
 }
 
-/* A share is read in percent: 100 and 0.01, not powers of ten, down to where zeros must be counted. */
+/* A share is read in percent: 100 and 0.01, not powers of ten. */
 TEST(shares_are_percent) {
-    static const char *const labels[] = {"100", "10", "1", "0.1", "0.01", "0.001", "10\u207b\u2074", "10\u207b\u2075"};
+    static const char *const labels[] = {"100", "10", "1", "0.1", "0.01", "0.001", "0.0001", "0.00001"};
     drawn *d = drawn_run(&drawn_light, "plot share -F fp32,unorm24 -m d3d");
     const drawn_scale *y = &d->panels[0].y;
     size_t found = 0;

@@ -149,7 +149,7 @@ static void check_legend(const drawn *d) {
                                         "met, where it is worst", "allowed, missed", "missed, where it is worst"};
     drawn_legend_is(d, 6, texts);
     drawn_style_is(d, &d->entries[0], 0, 0, DRAWN_NONE, false);
-    drawn_style_is(d, &d->entries[1], 3, 1, DRAWN_NONE, false);
+    drawn_style_is(d, &d->entries[1], 3, 2, DRAWN_NONE, false);
     const drawn_marker *met = &d->entries[3].marker, *missed = &d->entries[5].marker;
     for (int i = 2; i < 6; i += 2) {
         const svg_mark pen = level_pen(d, d->theme->palette[i == 2 ? 2 : 1]);
@@ -257,9 +257,16 @@ static bool true_normal(const void *context, double from, double to, double *lo,
     return from > n->setup->spec.znear * 1.2 && to < n->setup->spec.zfar / 1.2; /* curves end within a slice of both */
 }
 
+/* Planes are those of a set-up, the outline is of all. */
+static void check_heading(const drawn_panel *p, const char *name, bool outline) {
+    char heading[80];
+    snprintf(heading, sizeof heading, "%s%s", outline ? "" : name,
+             outline ? "outline of a sphere, the worst of all" : ": plane at 60\u00b0");
+    assert_string_equal(p->heading, heading);
+}
+
 TEST(normals_of_the_test) {
     static const char *const texts[] = {"low", "medium", "high", "projective", "bound of projective"};
-    static const char *const surfaces[] = {"plane at 60\u00b0", "outline of a sphere"};
     cameras c = cameras_of(drawn_camera(0.1, 1000), "unorm16", "d3d,reversed");
     const char *names[] = {c.names[0], c.names[1]};
     const figure_request request = {
@@ -274,25 +281,23 @@ TEST(normals_of_the_test) {
     assert_string_equal(d->y_caption->text, "angular error (degrees)");
     drawn_legend_is(d, 5, texts);
     drawn_style_is(d, &d->entries[0], 0, 0, DRAWN_DISC, false);
-    drawn_style_is(d, &d->entries[1], 1, 1, DRAWN_SQUARE, false);
-    drawn_style_is(d, &d->entries[2], 2, 2, DRAWN_DIAMOND, false);
-    drawn_style_is(d, &d->entries[3], 3, 3, DRAWN_TRIANGLE, false);
-    drawn_style_is(d, &d->entries[4], -1, 1, DRAWN_NONE, true);
-    assert_int_equal(d->panel_count, 4);
-    for (size_t i = 0; i < 4; i++) {
-        char heading[80];
+    drawn_style_is(d, &d->entries[1], 1, 2, DRAWN_SQUARE, false);
+    drawn_style_is(d, &d->entries[2], 2, 0, DRAWN_DIAMOND, false);
+    drawn_style_is(d, &d->entries[3], 3, 2, DRAWN_TRIANGLE, false);
+    drawn_style_is(d, &d->entries[4], -1, 2, DRAWN_NONE, true);
+    assert_int_equal(d->panel_count, 3);
+    for (size_t i = 0; i < 3; i++) {
         const drawn_panel *p = &d->panels[i];
-        snprintf(heading, sizeof heading, "%s: %s", c.names[i / 2], surfaces[i % 2]);
-        assert_string_equal(p->heading, heading);
+        check_heading(p, c.names[i % 2], i == 2);
         assert_true(p->x.log && p->y.log);
-        for (size_t m = 0; m < (i % 2 == 0 ? 5 : 4); m++) {
-            const of_normals n = {&c.setups[i / 2], i % 2, m};
+        for (size_t m = 0; m < (i < 2 ? 5 : 4); m++) { /* of outlines the worst, which is that of the second */
+            const of_normals n = {&c.setups[i == 0 ? 0 : 1], i / 2, m};
             const svg_mark *curve = drawn_curve(d, p, &d->entries[m]);
             drawn_follows(p, &p->y, curve, true_normal, &n, 60, 3);
             if (m < 4)
                 drawn_markers_on(d, p, &d->entries[m], curve);
         }
-        if (i % 2 == 1) {
+        if (i == 2) {
             const svg_mark *none[1];
             assert_int_equal(drawn_strokes(d, p, d->entries[4].line, none, 1), 0);
         }
@@ -373,14 +378,10 @@ TEST(normals_of_the_program) {
 
 /* As many set-ups as it shows where none are named, and each panel says all of what it shows. */
 TEST(normals_by_default) {
-    static const char *const surfaces[] = {"plane at 60\u00b0", "outline of a sphere"};
     cameras c = cameras_of(drawn_camera(0.1, 1000), "fp32,unorm24", "d3d,reversed");
     drawn *d = drawn_run(&drawn_light, "plot normals");
-    assert_int_equal(d->panel_count, 2 * c.count);
-    for (size_t i = 0; i < d->panel_count; i++) {
-        char heading[80];
-        snprintf(heading, sizeof heading, "%s: %s", c.names[i / 2], surfaces[i % 2]);
-        assert_string_equal(d->panels[i].heading, heading);
-    }
+    assert_int_equal(d->panel_count, c.count + 1);
+    for (size_t i = 0; i < d->panel_count; i++)
+        check_heading(&d->panels[i], i < c.count ? c.names[i] : NULL, i == c.count);
     drawn_close(d);
 }

@@ -320,6 +320,14 @@ TEST(types_and_names) {
         }
 }
 
+/* Letters beside an axis are a little wider or narrower there, and what is right of them lies so much farther. */
+static bool shows(cairo_surface_t *image, double x, double y, uint32_t colour) {
+    bool found = false;
+    for (int k = 0; k < 9 * 5; k++)
+        found = found || pixel_of(image, x + k % 9 - 4, y + k / 9 - 2) == colour;
+    return found;
+}
+
 /* The PNG shows what the SVG shows, where it shows it; a PDF is as large, in points. */
 TEST(the_same_in_png_and_pdf) {
     char path[2][320], command[400], head[64];
@@ -340,12 +348,9 @@ TEST(the_same_in_png_and_pdf) {
         for (size_t k = i + 1; k < count; k++)
             hidden = hidden || hypot(all[i].x - all[k].x, all[i].y - all[k].y) < 8;
         if (!hidden)
-            assert_int_equal(pixel_of(image, all[i].x, all[i].y), all[i].inside);
+            assert_true(shows(image, all[i].x, all[i].y, all[i].inside));
     }
-    bool framed = false; /* letters are a little wider or narrower there */
-    for (int x = -2; x <= 2; x++)
-        framed = framed || pixel_of(image, d->panels[0].frame.x0 + x, d->panels[0].frame.y0 + 3) == d->theme->frame;
-    assert_true(framed);
+    assert_true(shows(image, d->panels[0].frame.x0, d->panels[0].frame.y0 + 3, d->theme->frame));
     cairo_surface_destroy(image);
     snprintf(command, sizeof command, "grep -a -o '/MediaBox \\[ [0-9 ]*\\]' %s", path[1]);
     FILE *pipe = popen(command, "r");

@@ -38,7 +38,7 @@ static void check_panel(const drawn *d, const drawn_panel *p, const world_asked 
         snprintf(name, sizeof name, row->size != NULL ? "%s:%.7g" : "%s", row->name, size);
         const drawn_entry *e = drawn_legend(d, name);
         drawn_follows(p, &p->y, drawn_curve(d, p, e), true_loss, &c, 80, 4);
-        drawn_style_is(d, e, (int)(k % 4), (int)(k / 4), DRAWN_NONE, false);
+        drawn_style_is(d, e, (int)(k % 4), 2 * (int)(k / 4), DRAWN_NONE, false);
     }
 }
 

@@ -94,7 +94,7 @@ function judgeOne(now, i, tell) {
     }
     if (one.format !== "" && one.format !== "all" && one.format !== "depth24plus" && !one.format.startsWith("unormN"))
         tell(picture.name.startsWith(`${one.format} `), `${picture.name} is not of ${one.format}`);
-    if (one.mapping !== "" && one.mapping !== "all") tell(` ${picture.name.replaceAll(",", "")} `.includes(` ${one.mapping} `), `${picture.name} is not of ${one.mapping}`);
+    if (one.mapping !== "" && one.mapping !== "d3d,reversed") tell(` ${picture.name.replaceAll(",", "")} `.includes(` ${one.mapping} `), `${picture.name} is not of ${one.mapping}`);
     if (picture.wrong === null) tell(/too wide to be drawn/.test(picture.says), `no picture: ${picture.says}`);
     else if (/^No pixel is wrong/.test(picture.says)) tell(picture.wrong === 0, `${picture.wrong} wrong: ${picture.says}`);
     else tell(picture.wrong > 0 && /^[\d.]+ % of sign/.test(picture.says), `${picture.wrong} wrong: ${picture.says}`);

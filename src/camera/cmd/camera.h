@@ -44,11 +44,10 @@ extern const option_table camera_options, view_options;
 extern const option_use camera_planes[], camera_uses[], camera_projected[], camera_slanted[], camera_beside_viewport[];
 
 /** Texts of help about mappings, and about what a view changes. */
-#define CAMERA_PERSPECTIVE     "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
-#define CAMERA_ALL_PERSPECTIVE CAMERA_PERSPECTIVE "; all are d3d and reversed"
-#define CAMERA_OF_VIEW         "with --viewport also its field of view and rasterizer"
-#define CAMERA_OF_TANGENTS     "or the tangents of a view's edges, left,right,up,down, as OpenXR gives their angles"
-#define CAMERA_OF_RG           "rg, of Unity's DepthNormals, is linear"
+#define CAMERA_PERSPECTIVE "mappings: " DP_MAPPING_NAMES_PERSPECTIVE
+#define CAMERA_OF_VIEW     "with --viewport also its field of view and rasterizer"
+#define CAMERA_OF_TANGENTS "or the tangents of a view's edges, left,right,up,down, as OpenXR gives their angles"
+#define CAMERA_OF_RG       "rg, of Unity's DepthNormals, is linear"
 
 /** The unit where no preset brings one. */
 #define CAMERA_UNIT_ALONE                                                                                              \

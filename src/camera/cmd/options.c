@@ -13,9 +13,7 @@
 static const name_list formats = {.words = (const char *const[]){"all", "depth24plus", NULL},
                                   .get = list_format,
                                   .more = " (or a name from 'depthprec list formats'), unormN or floatE.M[bB]"};
-static const name_list mappings = {.words = (const char *const[]){"all", NULL},
-                                   .get = list_mapping,
-                                   .more = " (or a name from 'depthprec list mappings')"};
+static const name_list mappings = {.get = list_mapping, .more = " (or a name from 'depthprec list mappings')"};
 static const name_list presets = {.rows = &preset_table};
 static const name_list platforms = {.rows = &platform_table};
 static const name_list units = {.rows = &unit_table};
@@ -60,9 +58,9 @@ static int parse_formats(asked_line *line, const option_row *row, const char *va
 static int add_mapping(asked_line *line, const option_row *row, const char *name, void *group) {
     camera_asked *c = group;
     dp_mapping mapping;
-    if (strcmp(name, "all") == 0)
-        return add_mapping(line, row, "d3d", group) != EXIT_FINE ? EXIT_USAGE
-                                                                 : add_mapping(line, row, "reversed", group);
+    (void)line;
+    if (strcmp(name, "all") == 0) /* ten, of which no camera has all */
+        return option_refuse(row, "must name mappings, as d3d,reversed for both directions, got 'all'");
     if (dp_mapping_parse(name, &mapping) != DP_OK)
         return option_unknown(row, name);
     for (size_t i = 0; i < c->mapping_count; i++)
@@ -226,9 +224,8 @@ static const option_row camera_rows[] = {
     {"format", 'F', "NAME[,NAME...]|all",
         "depth formats: @, names as the APIs write them, unormN, floatE.M[bB]; all means those of "
         "'depthprec list formats'", parse_formats, .names = &formats, .standard = "all"},
-    {"mapping", 'm', "NAME[,NAME...]|all",
-        "mappings: @; all means d3d and reversed",
-        parse_mappings, .names = &mappings, .standard = "all"},
+    {"mapping", 'm', "NAME[,NAME...]",
+        "mappings: @", parse_mappings, .names = &mappings, .standard = "d3d,reversed"},
     {"log-c", 0, "C",
         "constant C of the logarithmic mappings", NUMBER(log_c, 1e-12, 1e12, NULL), .standard = "1"},
     {"ortho", 0, NULL,

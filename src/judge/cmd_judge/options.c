@@ -53,7 +53,7 @@ static const option_use of_camera[] = {
         WITHOUT("with no --far either: the planes that fit; else 0.1, or what fits")),
     OWN("far", WITHOUT("with no --near either: the planes that fit; else 1000, or what fits")),
     OWN("format", DEFAULT("fp32")),
-    OWN("mapping", HELP("what is right: @; all means d3d and reversed")),
+    OWN("mapping", HELP("what is right: @")),
     TAKE("log-c"), TAKE("ortho"), TAKE("platform"), GROUP_OF(camera_planes), TAKE("preset"), END};
 static const option_use uses[] = {
     TAKE("pairs"), TAKE("pairs-for"), FOR(PART_FILE, of_device), FOR(PART_FILE | PART_PAIRS, of_camera),

@@ -249,10 +249,23 @@ static int resolve_methods(plotting *p) {
     return status;
 }
 
+/* Those that the projection and the far plane allow; an engine's own come behind them. */
+static void choose_mappings(camera_asked *c) {
+    c->mapping_count = 0;
+    for (int m = 0; m <= DP_MAPPING_LOG; m++) {
+        const dp_mapping_row *row = dp_mapping_get((dp_mapping)m);
+        if ((row->ortho || !c->ortho) && (row->far_infinite || !isinf(c->zfar)))
+            c->mappings[c->mapping_count++] = (dp_mapping)m;
+    }
+}
+
 /* Where none are named and all would be too many: those that the figure shows then, and of a single set-up the first
  * mapping. */
 static void choose_setups(plot_request *o, const figure_row *row) {
     const size_t all = o->camera.format_count;
+    if ((row->takes & FIGURE_COST) != 0 && !option_given(o->line, "mapping") && o->camera.preset_count == 0 &&
+        o->camera.platform == NULL)
+        choose_mappings(&o->camera);
     if (row->formats == NULL)
         return;
     if (!option_given(o->line, "format") && all * o->camera.mapping_count > row->setups_max) {
@@ -428,8 +441,12 @@ static int look_at_model(plotting *p, output *out) {
 }
 
 static int height_of(const plotting *p) {
-    const bool own = p->request.fights != NULL && p->o->figure.height == 0;
-    return own ? scene_figure_height(p->chart, p->request.columns) : p->request.rows;
+    enum { ABOVE = 180, ROW = 17 };
+    if (p->o->figure.height > 0)
+        return p->request.rows;
+    return p->request.fights != NULL            ? scene_figure_height(p->chart, p->request.columns)
+           : (p->row->takes & FIGURE_COST) != 0 ? ABOVE + ROW * (int)p->request.count
+                                                : p->request.rows;
 }
 
 /* The figure, with the curves of the other camera where there is one: they stay in `room`. */

@@ -17,6 +17,9 @@ enum { SLANTED = FIGURE_SLANTED | FIGURE_MODEL, VIEWED = SLANTED | FIGURE_DRAWN 
 static const option_use of_fars[] = {OWN("near", DEFAULT("1")), OWN("far", .argument = "Z[,Z...]", DEFAULT("20"),
     HELP("distance of the far plane; several are drawn together"), .parse = parse_fars), TAKE("preset"),
     TAKE("mapping"), TAKE("log-c"), END};
+static const option_use of_small[] = {OWN("near", DEFAULT("1")),
+    OWN("far", .argument = "Z|inf[,Z...]", DEFAULT("20"), .parse = parse_fars),
+    OWN("format", DEFAULT("unorm4,float3.3b5")), END};
 static const option_use of_methods[] = {TAKE("format"), TAKE("mapping"), END};
 static const option_use of_planes[] = {TAKE("near"), TAKE("far"), END};
 static const option_use of_cameras[] = {TAKE("near"), FARS, OWN("format", ALSO(CAMERA_OF_RG)), TAKE("mapping"), END};
@@ -31,6 +34,8 @@ static const option_use of_setups_and_models[] = {
     TAKE("log-c"), END};
 static const option_use of_one_depth[] = {
     OWN("at", HELP("the depth, in figures of a single one"), WITHOUT("")), END};
+static const option_use of_cost[] = {OWN("at", WITHOUT("a tenth of far")),
+    OWN("mapping", WITHOUT("all that the projection and far allow, of engines none")), END};
 static const option_use of_axes[] = {TAKE("beside"), TAKE("axes"), END};
 static const option_use of_ranges[] = {
     OWN("range", HELP("the depths shown"), WITHOUT("near to far, or to 1e6 times near")), END};
@@ -53,6 +58,7 @@ static const option_use of_slants[] = {OWN("slant",
         "and 90 up")), END};
 
 static const option_use uses[] = {
+    FOR(FIGURE_SMALL, of_small), FOR(FIGURE_COST, of_cost),
     FOR(FIGURE_MODEL, of_scene), FOR(FIGURE_SHADOW, of_shadow), FOR(FIGURE_DRAWN, of_fight),
     FOR(FIGURE_TERMS, origin_terms), FOR(FIGURE_MINE, judge_mine),
     FOR(FIGURE_SETUPS, of_setups), FOR(FIGURE_SETUPS | FIGURE_MODEL, of_setups_and_models),

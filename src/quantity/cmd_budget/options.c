@@ -8,7 +8,7 @@
 /* clang-format off */
 static const option_use uses[] = {
     OWN("format", DEFAULT("fp32")),
-    OWN("mapping", HELP(CAMERA_PERSPECTIVE ", " DP_MAPPING_NAMES_LOG "; all are d3d and reversed"),
+    OWN("mapping", HELP(CAMERA_PERSPECTIVE ", " DP_MAPPING_NAMES_LOG),
         DEFAULT("reversed")),
     OWN("tolerance", HELP("a model suffices if it neglects no more of the separation, 0.05 or 5%"), DEFAULT("5%")),
     TAKE("at"), TAKE("log-c"),

@@ -168,7 +168,7 @@ static int refused_place(const shadow_request *o, const shadow_light *light, sha
                             number_full(light->receiver_lo).text, number_full(light->receiver_hi).text);
     if (status == SHADOW_POSITION)
         return option_error(o->shadow.world > 0.0 ? "from-origin" : "range",
-                            "leaves too little of positions in binary32 at %s before the light",
+                            "leaves too little of positions in binary32 at %s in front of the light",
                             number_full(light->receiver_lo).text);
     if (status == SHADOW_COARSE)
         return option_error("size", "must be larger for a filter of %ux%u, got '%ux%u': %s", o->shadow.kernel,

@@ -213,7 +213,7 @@ static const option_use of_cascades[] = {
     TAKE("camera-depth"), GROUP_OF(shadow_cascade_uses), END};
 static const option_use of_ranges[] = {
     OWN("range", HELP("where receivers lie: with --light-box along the light from the front of the box, with --spot "
-        "and --point their depths before the light, or distances from it"),
+        "and --point their depths in front of the light, or distances from it"),
         WITHOUT("the whole box, less 1/256 where units have no effect at window depth 0; or near to far, less an "
         "octave there")), END};
 static const option_use of_place[] = {
@@ -223,7 +223,7 @@ static const option_use of_flat[] = {TAKE("curvature"), END};
 
 static const option_use uses[] = {
     TAKE("from-origin"), TAKE("filter"),
-    OWN("format", DEFAULT("fp32")), OWN("mapping", HELP(CAMERA_ALL_PERSPECTIVE), DEFAULT("d3d")),
+    OWN("format", DEFAULT("fp32")), OWN("mapping", HELP(CAMERA_PERSPECTIVE), DEFAULT("d3d")),
     CAMERA_UNIT_ALONE,
     OWN("arith", ALSO("by default that of --raster where known")),
     FOR(PART_CASCADES | PART_PLACE, of_planes), FOR(PART_CASCADES, of_cascades),

@@ -48,7 +48,7 @@ static const option_use uses[] = {
         WITHOUT("solved for, or 0.1 where --for names another")),
     OWN("far", WITHOUT("inf; solved for where only near is given")),
     OWN("format", WITHOUT("solved for where near and far are given, else all")),
-    OWN("mapping", WITHOUT("solved for where near, far and format are given, else all")),
+    OWN("mapping", WITHOUT("solved for where near, far and format are given, else d3d and reversed")),
     OWN("model", WITHOUT("float: the guarantee; staged for an error, and for linear and log")),
     FOR(SOLVE_ONE, solve_one),
     TAKE("log-c"), TAKE("for"), TAKE("separation"), TAKE("link"),

@@ -187,8 +187,8 @@ static const option_row texture_rows[] = {
         SIZE(size),
         .standard = "640x360",
         .instead = "; a figure's size is --figure-size"},
-    {"parameter", 0, "NAME=VALUE",
-        "a parameter of the synthetic image or the effect; may be repeated", .parse = parse_parameter, .repeats = true},
+    {"parameter", 0, "NAME=VALUE[,NAME=VALUE...]",
+        "parameters of the synthetic image or the effect; may be repeated", .parse = parse_parameter, .repeats = true},
     {"sky", 0, "T|none",
         "window depths within T of the far plane are sky, which no product has; 0: only the far plane itself; none: "
         "sky lies at the far plane, as shaders read it, and fog covers it",
@@ -286,7 +286,7 @@ static const option_use of_position[] = {
 static const option_use uses[] = {
     OWN("format", WITHOUT("as the image has it; unorm24 with --synthetic; all with an effect alone")),
     OWN("matrix", ALSO(CAMERA_OF_TANGENTS "; of an image also with an oblique near plane")),
-    OWN("mapping", WITHOUT("as the image has it; d3d with --synthetic; all with an effect alone")),
+    OWN("mapping", WITHOUT("as the image has it; d3d with --synthetic; d3d and reversed with an effect alone")),
     OWN("ortho", .optional = "H", HELP("orthographic projection, H half the height of the view"),
         WITHOUT("perspective; of H 5 scene units")),
     TAKE("log-c"), TAKE("last-eye"), TAKE("last-look"), TAKE("synthetic"), TAKE("parameter"), TAKE("product"),

@@ -8,9 +8,7 @@
 #include "report/output.h"
 #include "texture/cmd_texture/request.h"
 
-int parse_parameter(asked_line *line, const option_row *row, const char *value, void *group) {
-    texture_asked *o = group;
-    (void)line;
+static int add_parameter(const option_row *row, const char *value, texture_asked *o) {
     const size_t length = strcspn(value, "=");
     named_number given = {{0}, 0};
     if (value[length] == '\0' || length == 0 || length >= sizeof given.name ||
@@ -25,6 +23,23 @@ int parse_parameter(asked_line *line, const option_row *row, const char *value, 
     if (i == IMAGE_PARAMETERS_MAX)
         return option_refuse(row, "must not be more than %d, got '%s' too", IMAGE_PARAMETERS_MAX, value);
     o->parameters[o->parameter_count++] = given;
+    return EXIT_FINE;
+}
+
+int parse_parameter(asked_line *line, const option_row *row, const char *value, void *group) {
+    char part[128];
+    const char *at = value;
+    (void)line;
+    do {
+        const size_t length = strcspn(at, ",");
+        if (length >= sizeof part)
+            return option_refuse(row, "must be NAME=NUMBER, got '%s'", at);
+        snprintf(part, sizeof part, "%.*s", (int)length, at);
+        const int status = add_parameter(row, part, group);
+        if (status != EXIT_FINE)
+            return status;
+        at += length;
+    } while (*at++ == ',');
     return EXIT_FINE;
 }
 

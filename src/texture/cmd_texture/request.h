@@ -16,7 +16,7 @@
 
 enum { IMAGE_PARAMETERS_MAX = 16 };
 
-/** One --parameter NAME=VALUE; whose it is, and whether there is such a one, is for the command to see. */
+/** A NAME=VALUE of --parameter; whose it is, and whether there is such a one, is for the command to see. */
 typedef struct named_number {
     char name[32];
     double value;

@@ -56,7 +56,7 @@ const option_table prepass_options = {.rows = prepass_rows};
 /* clang-format off */
 static const option_use uses[] = {
     ROWS(prepass_rows),
-    OWN("format", DEFAULT("fp32")), OWN("mapping", HELP(CAMERA_ALL_PERSPECTIVE), DEFAULT("reversed")),
+    OWN("format", DEFAULT("fp32")), OWN("mapping", HELP(CAMERA_PERSPECTIVE), DEFAULT("reversed")),
     OWN("arith", ALSO("by default that of --platform where known")),
     OWN("range", HELP("the eye depths of the vertices"), WITHOUT("near to far; needed where far is inf")),
     TAKE("threads"), TAKE("link"),

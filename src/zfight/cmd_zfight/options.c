@@ -31,7 +31,7 @@ static const option_use uses[] = {
     OWN("slant", .argument = "LO:HI|SLANT,AZIMUTH", .parse = parse_slant_or_plane, DEFAULT("0:90"),
         HELP("angles between surface normal and view axis, degrees; 0 faces the camera, 90 is edge-on; with "
         "--rasterize also one angle and the direction of the normal on the screen, 0 right and 90 up")),
-    OWN("format", DEFAULT("fp32")), OWN("mapping", HELP(CAMERA_ALL_PERSPECTIVE), DEFAULT("reversed")),
+    OWN("format", DEFAULT("fp32")), OWN("mapping", HELP(CAMERA_PERSPECTIVE), DEFAULT("reversed")),
     OWN("range", HELP("the depths tested"), WITHOUT("near to far; needed where far is inf")),
     OWN("viewport", HELP("the viewport in pixels; without --rasterize the guarantee at any slant is printed beside the "
         "census"), WITHOUT("1920x1080 with --rasterize, else surfaces face the camera")),
