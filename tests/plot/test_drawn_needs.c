@@ -202,7 +202,8 @@ TEST(needs_of_a_file) {
         assert_int_equal(drawn_markers(d, p, all, 32), marks[i]);
     }
     assert_true(met > 0 && met < NEEDS && inner > 0);
-    snprintf(subtitle, sizeof subtitle, "street.need: %zu met, %zu missed; not shown: 1 of ties", met, NEEDS - met);
+    snprintf(subtitle, sizeof subtitle, "street.need: %zu met, %zu missed; not shown: 1 of ties and biases", met,
+             NEEDS - met);
     assert_string_equal(d->subtitle, subtitle);
     drawn_description_is(d,
                          " street: unorm24 d3d, exact. Shown: separation given; error given; allowed, met; met, where "
