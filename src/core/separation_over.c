@@ -318,3 +318,38 @@ dp_status dp_separation_over(const dp_setup *setup, double lo, double hi, double
     *out = worst;
     return DP_OK;
 }
+
+/*
+ * What binary32 arithmetic guarantees for depths from lo to hi, one binade after the other. A depth is meant by the
+ * binary32 depth nearest to it.
+ */
+static double computed_bound(const dp_guarantee *g, double lo, double hi) {
+    const double tiny = lo > 0.0 ? 0.0 : larger(0x1p-24 * larger(-lo, fabs(hi)), 0x1p-126);
+    double bound = 0.0;
+    while (lo <= hi) {
+        const double next = next_binade(lo, tiny);
+        const double end = next <= hi ? (double)nextafterf((float)next, -HUGE_VALF) : hi;
+        if (lo < end) /* a single depth is the one that was given, or stands beside one */
+            bound = larger(bound, dp_guarantee_bound(g, (float)lo, (float)end));
+        else if (lo >= g->setup->spec.znear && lo <= g->setup->spec.zfar)
+            bound = larger(bound, dp_guarantee_at(g, lo));
+        lo = (double)(float)next;
+    }
+    return bound;
+}
+
+dp_status dp_separation_runs(const dp_setup *setup, const double *lo, const double *hi, double *bound, size_t count) {
+    if (setup == NULL || (count > 0 && (lo == NULL || hi == NULL || bound == NULL)))
+        return DP_ERROR_NULL;
+    for (size_t i = 0; i < count; i++)
+        if (!(lo[i] >= setup->spec.znear && lo[i] <= hi[i] && hi[i] <= setup->spec.zfar) || isinf(hi[i]))
+            return DP_ERROR_RANGE;
+    search s = {.setup = setup, .guarantee = dp_guarantee_make(setup), .lattice = lattice_of(setup)};
+    for (size_t i = 0; i < count; i++) {
+        const double ends = larger(dp_guarantee_at(&s.guarantee, lo[i]), dp_guarantee_at(&s.guarantee, hi[i]));
+        bound[i] = larger(
+            larger(ends, lattice_bound(&s, lo[i], hi[i])),
+            s.guarantee.computed ? computed_bound(&s.guarantee, (double)(float)lo[i], (double)(float)hi[i]) : 0.0);
+    }
+    return DP_OK;
+}

@@ -288,6 +288,45 @@ TEST(about_zero) {
     assert_true(flushed[0] >= 0x1p-125 + 0x1p-150 && flushed[1] >= 0x1p-125 + 2.0 * 0x1p-126 * 0x1p-12);
 }
 
+/* Runs as tables have them, pieces of binades; over a whole binade or more nothing is promised but that it holds. */
+static void runs(planes which, dp_model model, const char *name) {
+    enum { DEPTHS = 20 };
+    tally never_below = {.name = "runs: never below the separation of a depth"};
+    tally near = {.name = "runs: half of them not above twice the piece's width"};
+    rng r = rng_make(name);
+    uint64_t close = 0, finite = 0;
+    for (uint64_t i = 0; i < test_cases(400, 8000, 80000); i++) {
+        dp_setup s;
+        if (!random_setup(&r, which, model, &s))
+            continue;
+        const double lo = probe(&r, &s, s.spec.znear, fmin(s.spec.zfar, 1e18));
+        const double width = ldexp(fabs(lo), -(int)rng_below(&r, 30));
+        const double hi = fmin(lo + width, fmin(s.spec.zfar, 1e18));
+        double bound, worst = 0.0;
+        assert_int_equal(dp_separation_runs(&s, &lo, &hi, &bound, 1), DP_OK);
+        for (int k = 0; k < DEPTHS; k++) {
+            const double z = k == 0 ? lo : k == 1 ? hi : fmin(fmax(probe(&r, &s, lo, hi), lo), hi);
+            const double found = dp_separation(&s, z);
+            worst = fmax(worst, found);
+            TALLY(&never_below, found <= bound, "%s: over %a %a: bound %a, but %a at %a", name_of(&s), lo, hi, bound,
+                  found, z);
+        }
+        finite += !isinf(worst) && width <= 0x1p-8 * fabs(lo);
+        close += !isinf(worst) && width <= 0x1p-8 * fabs(lo) && bound <= worst * (1.0 + 4.0 * width / fabs(lo) + 1e-9);
+    }
+    TALLY(&near, 2 * close > finite && finite > 50, "%s: %g of %g", name, (double)close, (double)finite);
+    tally_end(&never_below);
+    tally_end(&near);
+}
+
+TEST(short_runs) {
+    runs(POSITIVE, DP_MODEL_EXACT, "runs exact");
+    runs(POSITIVE, DP_MODEL_STAGED, "runs staged");
+    runs(POSITIVE, DP_MODEL_FLOAT, "runs fp32");
+    runs(EITHER_SIGN, DP_MODEL_EXACT, "runs exact, either sign");
+    runs(EITHER_SIGN, DP_MODEL_FLOAT, "runs fp32, either sign");
+}
+
 TEST(known_answers) {
     dp_spec spec = dp_spec_default();
     dp_format found[2];
@@ -306,6 +345,16 @@ TEST(known_answers) {
     assert_int_equal(dp_separation_over(&s, 5.0, 1.0, 0.0, &w), DP_ERROR_RANGE);
     assert_int_equal(dp_separation_over(&s, NAN, 1.0, 0.0, &w), DP_ERROR_RANGE);
     assert_int_equal(dp_separation_over(NULL, 1.0, 2.0, 0.0, &w), DP_ERROR_NULL);
+    const double lo[] = {1.0, 0.001, 5.0, 5000.0}, hi[] = {1.0, 1.0, 1.0, INFINITY};
+    double bound[4] = {7.0, 7.0, 7.0, 7.0};
+    assert_int_equal(dp_separation_runs(&s, lo, hi, bound, 0), DP_OK);
+    for (int i = 1; i < 4; i++)
+        assert_int_equal(dp_separation_runs(&s, lo + i, hi + i, bound + i, 1), DP_ERROR_RANGE);
+    assert_int_equal(dp_separation_runs(&s, lo, hi, bound, 2), DP_ERROR_RANGE); /* before the first is written */
+    assert_int_equal(dp_separation_runs(NULL, lo, hi, bound, 1), DP_ERROR_NULL);
+    assert_int_equal(dp_separation_runs(&s, lo, NULL, bound, 1), DP_ERROR_NULL);
+    for (int i = 0; i < 4; i++)
+        assert_true(bound[i] == 7.0);
     spec.zfar = INFINITY;
     assert_int_equal(dp_setup_init(&s, &spec), DP_OK);
     assert_int_equal(dp_separation_over(&s, 1.0, INFINITY, 0.0, &w), DP_OK);

@@ -36,10 +36,15 @@ test("requirements are an object", async () => {
 });
 
 test("presets have the planes of the program's list", async () => {
-    for (const { name, camera: row } of (await run("list presets --json")).items) {
-        const [near, far] = row.replaceAll(",", "").split(" ").filter((word) => /^([\d.]+|inf)$/.test(word)).map((word) => (word === "inf" ? Infinity : Number(word)));
-        const c = await Camera.preset(name).catch((error) => (assert.match(error.message, /unorm24 or fp32/), Camera.preset(name, { format: "fp32" })));
-        assert.deepEqual([c.near, c.far], [near, far], name);
+    for (const { name } of (await run("list presets --json")).items) {
+        let asked = name, more = {};
+        const c = await Camera.preset(name).catch((error) => {
+            if (/unorm24 or fp32/.test(error.message)) more = { format: "fp32" };
+            else [, asked] = error.message.match(/^preset: needs .*: ([^ ]+:[^ ]+?)(?:,? |$)/);
+            return Camera.preset(asked, more);
+        });
+        const [want] = JSON.parse(native(["table", "--quiet", "--json", `--preset=${asked}`, ...(more.format ? ["--format=fp32"] : [])])).setups;
+        assert.deepEqual([c.near, c.far, c.mapping, c.format], [want.near, want.far ?? Infinity, want.mapping, want.format], asked);
     }
     await refuses(() => Camera.preset("none"), /^preset: must be .*'none'/);
     await refuses(() => Camera.preset("unity", { unit: "parsec" }), /^unit: must be/);

@@ -9,6 +9,7 @@ import json
 import math
 import os
 import pickle
+import re
 import signal
 import struct
 import subprocess
@@ -285,15 +286,25 @@ class Program(unittest.TestCase):
         self.assertEqual(found["requirements"][0]["setup"]["far"], None)
 
     def test_presets(self):
-        for row in depthprec.run("list presets --json")["items"]:
-            words = row["camera"].replace(",", "").split()
+        """The program's planes; of those whose planes it computes, from sizes, with the example that it gives."""
+        computed = 0
+        for row in depthprec.presets():
+            name, more = row["name"], {}
             try:
-                c = Camera.preset(row["name"])
+                c = Camera.preset(name)
             except Error as error:
-                self.assertIn("unorm24 or fp32", str(error))
-                c = Camera.preset(row["name"], format="fp32")
-            self.assertEqual([c.near, c.far], [float(words[1]), float(words[3])])
-            self.assertIn(c.mapping, words)
+                if "unorm24 or fp32" in str(error):
+                    more = {"format": "fp32"}
+                else:
+                    name, computed = re.search(r"^preset: needs .*: (%s:[^ ]+?)(,? |$)" % name, str(error)).group(1), computed + 1
+                c = Camera.preset(name, **more)
+            format = ["--format=fp32"] * len(more)
+            want = json.loads(program("table", "--quiet", "--json", "--preset=" + name, *format))["setups"][0]
+            self.assertEqual([c.near, c.far, c.mapping, c.format],
+                             [want["near"], want["far"] or math.inf, want["mapping"], want["format"]])
+            if not row["camera"].startswith("near and far computed"):
+                self.assertIn("near %.15g, far %.15g, %s" % (c.near, c.far, c.mapping), row["camera"])
+        self.assertGreater(computed, 5)
 
     def test_said(self):
         """What is refused is named as it was given, without hyphens."""
@@ -754,6 +765,38 @@ class Memory(unittest.TestCase):
         self.assertEqual(c.separation(numpy.zeros((0, 5))).shape, (0, 5))
         m = numpy.array(Matrix().matrix(0.1, 1000, "reversed"), numpy.float32)
         self.assertEqual(Camera.from_matrix(m), Camera.from_matrix(m.T))
+
+
+    @unittest.skipIf(numpy is None, "numpy is not here")
+    def test_quick(self):
+        """The table's separations are never below those of each depth, hardly above, and NaN where those are."""
+        r, ratios = generator("quick"), []
+        for k in range(CASES // 10):
+            near = 10 ** r.uniform(-3, 2)
+            far = math.inf if k % 7 == 0 else near * 10 ** r.uniform(0.1, 6)
+            view = {"viewport": (640, 480)} if k % 5 == 0 else {}
+            mapping = r.choice(["d3d", "gl", "reversed", "linear", "log"][:3 if view else 5])
+            c = Camera(near, 1e5 * near if far == math.inf and mapping in ("linear", "log") else far,
+                       r.choice(["unorm16", "unorm24", "fp32"]), mapping, **view)
+            for dtype in (numpy.float32, numpy.float64):
+                z = [near * min(c.far / near, 1e7) ** r.random() for _ in range(100)]
+                edges = [near, c.far, near * (1 + 2 ** -12), 0.0, -1.0, math.nan, math.inf, 2.0 ** -5, 2.0 ** 9]
+                z = numpy.array(z + [nudge(x, j) if math.isfinite(x) and x else x for x in edges for j in (-1, 0, 1)], dtype)
+                for given in (z, z[::-1], z[::2].reshape(2, -1)):  # the second from the table alone
+                    want, got = c.separation(given), c.separation(given, quick=True)
+                    self.assertEqual([got.dtype, got.shape], [want.dtype, want.shape])
+                    self.assertTrue((numpy.isnan(want) == numpy.isnan(got)).all(), (c, given[numpy.isnan(want) != numpy.isnan(got)]))
+                    there = ~numpy.isnan(want)
+                    self.assertTrue((got[there] >= want[there]).all(), c)
+                    finite = numpy.isfinite(want) & (want > 0)
+                    ratios += list(got[finite] / want[finite])
+        self.assertLess(numpy.median(ratios), 1.001)
+        self.assertLess(numpy.mean(numpy.array(ratios) > 1.01), 0.2)
+        c = Camera()
+        self.assertEqual(c.separation(5.0, quick=True), c.separation(5.0))
+        for work in (lambda: c.separation(z, quick=True, out=z), lambda: Camera(-1, 5, ortho=True).separation(z, quick=True)):
+            with self.assertRaisesRegex(Error, "quick needs"):
+                work()
 
 
 class Cameras(unittest.TestCase):

@@ -2,15 +2,16 @@
 """What a depth buffer resolves, exact and proven.
 
 Camera has encode, decode, decode_window, window_depth, separation, lattice, interval and worst; solve, check, recognise,
-bias, plot, read, presets, formats and run are commands. Depths are eye depths along the view axis, in scene units; window depths are from 0 to 1; codes are what
-the buffer stores.
+bias, plot, read, presets, formats and run are commands. Depths are eye depths along the view axis, in scene units;
+window depths are from 0 to 1; codes are what the buffer stores.
 
 Arrays are any memory of float16, float32, float64 or integers, in either order of bytes: numpy, array.array,
-memoryview, lists. Contiguous input of float32, float64 and codes is not copied, float16 becomes float32, other threads run meanwhile, and results come as the kind that was given. `out` takes the result into memory of
-the caller's. A number in gives a number out.
+memoryview, lists. Contiguous input of float32, float64 and codes is not copied, float16 becomes float32, other threads
+run meanwhile, and results come as the kind that was given. `out` takes the result into memory of the caller's. A number
+in gives a number out.
 
-Camera is the library itself (MIT). The functions run the command beside it, a program of its own
-(GPL-3.0-or-later). Every formula and bound is derived in depthprec(7).
+Camera is the library itself (MIT). The functions run the command beside it, a program of its own (GPL-3.0-or-later).
+Every formula and bound is derived in depthprec(7).
 """
 import ctypes as _ctypes
 import decimal as _decimal
@@ -18,7 +19,7 @@ import math as _math
 from collections import namedtuple as _namedtuple
 from functools import partial as _partial
 
-from . import _arrays, _core
+from . import _arrays, _core, _table
 from ._core import Error
 from ._program import Figure, answer as _answer, bias, check, formats, plot, presets, read, recognise, run, solve
 
@@ -138,8 +139,8 @@ class Camera:
 
     @classmethod
     def preset(cls, name, *, unit=None, **more):
-        """The camera that an engine starts with: "unity", "unreal", "godot-forward", "three", ...; presets() has them with
-        their sources.
+        """The camera that an engine starts with: "unity", "unreal", "godot-forward", "three", ...; presets() has them
+        with their sources.
 
         unit  "m", "cm", ...: the length of a scene unit, to which planes and the constant C are converted; None: the
               engine's own
@@ -262,7 +263,8 @@ class Camera:
             raise TypeError("a code must be a whole number: window depths are for decode_window(), got %r" % (code,))
         if not 0 <= code <= self.code_max:
             raise Error("a code must be from 0 to %d, got %d" % (self.code_max, code))
-        got = [self._number(name, code, read=_ctypes.c_uint32) for name in (("eye", "lo", "hi") if bounds else ("eye",))]
+        names = ("eye", "lo", "hi") if bounds else ("eye",)
+        got = [self._number(name, code, read=_ctypes.c_uint32) for name in names]
         return Decoded(*got) if bounds else got[0]
 
     def decode_window(self, depths, *, bounds=False, out=None):
@@ -298,15 +300,27 @@ class Camera:
         """
         return self._map("window", z, out)
 
-    def separation(self, z, *, out=None):
+    def separation(self, z, *, out=None, quick=False):
         """How far behind z a surface must lie to be resolved: guaranteed, despite the rounding of shader, viewport and
         buffer. With a viewport: how far in front of z, along the normal, at any slant.
 
         z, out  as window_depth(); float32 is rounded up
+        quick   arrays of numpy by a table, which grows with the depths that are met: the worst of the 4096th of a
+                binade that z lies in. It holds as well, and is hardly more but where a step doubles, there up to twice. Needs
+                numpy and near above 0, and takes no `out`
+
         Returns scene units; math.inf where nothing is certain. Nor is anything where z + separation(z) > far: far ends
         no separation. For "linear", which no pipeline computes, a lattice.
-        Source: depthprec(3), dp_separation() of dp_setup_guaranteed().
+        Source: depthprec(3), dp_separation() of dp_setup_guaranteed(); quick dp_separation_runs().
         """
+        if quick:
+            read, numpy = _arrays.given(z, "eye depths"), _arrays.numpy_module()
+            if out is not None or self.near <= 0 or numpy is None:
+                raise Error("quick needs numpy, a near above 0 and no out")
+            if read is not None:
+                if "table" not in self._calls:
+                    self._calls["table"] = _table.Table(numpy, self._setup_of("separation"))
+                return self._calls["table"].at(numpy.asarray(read))
         return self._map("separation", z, out)
 
     def lattice(self, z, *, out=None):
@@ -481,7 +495,8 @@ def _triangles(viewport, fov, raster, subpixel, slant, triangle_class):
                                         for name, _ in _core.PlaneError._fields_))
         made.subpixel, fixed = _core.RASTERS[raster]
         if subpixel is not None and (fixed or not _arrays.whole(subpixel, "subpixel") >= made.subpixel):
-            raise Error("subpixel %s with %s, got %s" % ("does not apply" if fixed else "must be at least 4", raster, subpixel))
+            raise Error("subpixel %s with %s, got %s"
+                        % ("does not apply" if fixed else "must be at least 4", raster, subpixel))
     if subpixel is not None:
         made.subpixel = _arrays.whole(subpixel, "subpixel")
     fault = _core.triangles_fault(made)

@@ -106,7 +106,7 @@ def given(values, what, direct=REALS):
 
 
 def element(view):
-    """The type of elements, "e" of float16, and whether their bytes are in the other order; None of what is no number."""
+    """The type of elements, "e" of float16, None of what is no number; whether their bytes are in the other order."""
     order, letter = (view.format[0], view.format[1:]) if view.format[:1] in tuple("@=<>!") else ("", view.format)
     if letter in tuple("bBhHiIlLqQnN"):
         letter = _INTEGERS[view.itemsize][letter.isupper()]

@@ -113,3 +113,4 @@ def word(value, what):
     if not isinstance(value, str):
         raise TypeError("%s must be a word, got %s" % (what, type(value).__name__))
     return value
+separation_runs = _function("dp_separation_runs", c_int, POINTER(Setup), c_void_p, c_void_p, c_void_p, c_size_t)
