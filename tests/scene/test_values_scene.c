@@ -177,9 +177,9 @@ TEST(other_forms) {
     snprintf(want, sizeof want, "safe up to %.4g m, z-fights from %.4g m on; 9.766e-4 m apart",
              floor(number_at(f, "certain_to") * 100) / 100, ceil(number_at(f, "ties_from") * 100) / 100);
     check_says(1, want, "%s", line_of);
-    check_says_all(
-        0, passing,
-        SAID("of each other: none may z-fight up to 20.", "pass  no surfaces z-fight nearer than 20.", "!'wall'"));
+    check_says_all(0, passing,
+                   SAID("of each other: none may z-fight facing the\n  camera up to 20, none of them at any slant ",
+                        "pass  no surfaces z-fight nearer than 20.", "!'wall'"));
     printed p = print_of("%s --csv", line_of);
     char *line = strtok(p.out, "\r\n");
     assert_non_null(strstr(line, "a_node,a_mesh,a_material,b_node,b_mesh,b_material,gap_min [scene],gap_max [scene]"));
@@ -208,6 +208,82 @@ TEST(stray_vertex) {
         json_printed(0, "scene %s", scratch_text("stray.obj", "v 0 0 0\nv 3 0 0\nv 0 4 0\nv 1e6 1e6 1e6\nf 1 2 3\n"));
     assert_true(number_at(root, "extent") == 5 && number_at(root, "within") == 50);
     json_decref(root);
+}
+
+/* Surfaces less apart than the worst separation of a model at the depths that are judged, or seen. */
+static bool fights(const json_t *root, const json_t *f, const dp_setup *setup) {
+    dp_separation_worst worst;
+    const bool eyes = node_at(root, "eyes") != NULL;
+    const double lo = eyes ? fmax(number_at(f, "seen_from"), setup->spec.znear) : setup->spec.znear,
+                 hi = eyes ? fmin(number_at(f, "seen_to"), setup->spec.zfar) : number_at(root, "within");
+    assert_int_equal(dp_separation_over(setup, lo, hi, 0, &worst), DP_OK);
+    return number_at(f, "gap_min") < worst.bound;
+}
+
+/* How many findings a simpler model takes for fights, and how many otherwise than was decided. */
+static void check_model(tally *t, const char *line, const json_t *root, const json_t *m, const dp_setup *setup) {
+    const json_t *findings = node_at(root, "findings");
+    const bool eyes = node_at(root, "eyes") != NULL;
+    size_t count = 0, differ = 0;
+    for (size_t i = 0; i < json_array_size(findings); i++) {
+        const json_t *f = json_array_get(findings, i);
+        if (eyes && isnan(number_at(f, "seen_from")))
+            continue;
+        const bool own = fights(root, f, setup),
+                   decided = eyes ? !isnan(number_at(f, "fights_from")) : flag_at(f, "fights");
+        count += own;
+        differ += own != decided;
+    }
+    TALLY(t, number_at(m, "fights") == (double)count && number_at(m, "differs") == (double)differ,
+          "%s: %s: %g fight, %g differ, not %zu, %zu", line, text_at(m, "model"), number_at(m, "fights"),
+          number_at(m, "differs"), count, differ);
+}
+
+/* Below what was found stands whether a simpler model would have decided alike, and in how many pairs not. */
+TEST(simpler_models) {
+    static const struct {
+        const char *options, *format, *said;
+        dp_mapping mapping;
+        size_t models;
+    } rows[] = {
+        {"house.gltf -F d24 -m d3d", "unorm24", "Decided in float, facing the camera; staged decides alike.\n",
+         DP_MAPPING_D3D, 2},
+        {"house.gltf -F fp32 -m gl --within 300", "fp32", "Decided in float, facing the camera; ", DP_MAPPING_GL, 2},
+        {"house.gltf -F fp32 -m reversed --viewport 1920x1080", "fp32",
+         "Decided in float, at any slant; exact differs in 15, staged in 15, float facing\n  the camera in 15.\n",
+         DP_MAPPING_REVERSED, 3},
+        {"house.gltf -F d24 -m reversed -n 0.1 -f 1000 --camera street --within 60", "unorm24",
+         "Decided in float, at any slant; ", DP_MAPPING_REVERSED, 3},
+        {"street.obj --separation 0.02 -F d24 -m d3d --within 50", "unorm24", "Decided in float, facing the camera; ",
+         DP_MAPPING_D3D, 2},
+        {"street.obj --separation 0.02 -F d16 -m linear", "unorm16",
+         "Decided in staged, facing the camera; exact decides alike.\n", DP_MAPPING_LINEAR, 1},
+    };
+    tally t = {.name = "models"};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const char *const line = rows[i].options;
+        printed p = print_of("scene tests/models/%s", line);
+        json_t *root = json_printed(p.status, "scene tests/models/%s", line);
+        const dp_setup setup = SETUP(rows[i].format, .mapping = rows[i].mapping);
+        const json_t *any = node_at(root, "any_slant");
+        TALLY(&t, strstr(p.out, rows[i].said) != NULL, "%s: '%s' is not said: %s", line, rows[i].said, p.out);
+        TALLY(&t, json_array_size(node_at(root, "models")) == rows[i].models, "%s: models", line);
+        for (size_t k = 0; k < rows[i].models; k++) {
+            const json_t *m = node_at(root, "models[%zu]", k);
+            const dp_setup own = setup_in(&setup, (dp_model)k);
+            TALLY(&t, strcmp(text_at(m, "model"), dp_model_name((dp_model)k)) == 0, "%s: %s", line,
+                  text_at(m, "model"));
+            check_model(&t, line, root, m, &own);
+        }
+        TALLY(&t, (any != NULL) == (rows[i].models == 2), "%s: at any slant", line);
+        if (any != NULL) {
+            const dp_setup slanted = setup_of(rows[i].format, rows[i].mapping, true);
+            check_model(&t, line, root, any, &slanted);
+        }
+        json_decref(root);
+        printed_free(&p);
+    }
+    tally_end(&t);
 }
 
 TEST(refused) {

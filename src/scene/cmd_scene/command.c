@@ -272,8 +272,10 @@ int scene_look(scene *s, output *out) {
     if (status == EXIT_FINE)
         status = judge_findings(s);
     stop_end(out);
-    if (status == EXIT_FINE)
+    if (status == EXIT_FINE) {
         scene_bias_take(s);
+        scene_models_take(s);
+    }
     return status;
 }
 

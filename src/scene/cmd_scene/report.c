@@ -97,10 +97,43 @@ static void say_seen(page *p, const scene *s) {
         page_text(p, "%zu more %s resolved only %s.", cut, cut == 1 ? "is" : "are", condition_of(s));
 }
 
+/* From every place: of surfaces that face the camera, unless slants were asked about. */
+static void say_everywhere(page *p, const scene *s) {
+    const size_t count = s->found.findings;
+    char also[SLANT_ASSUMED_SIZE + 64] = "", view[SLANT_ASSUMED_SIZE];
+    if (s->assumed != NULL && s->assumed->fights > 0)
+        snprintf(also, sizeof also, ", at least %zu at any slant (%s)", (size_t)s->assumed->fights,
+                 slant_assumed(&s->view, view));
+    else if (s->assumed != NULL)
+        snprintf(also, sizeof also, ", none of them at any slant (%s)", slant_assumed(&s->view, view));
+    page_text(p, "%zu pair%s of surfaces lie%s within %s of each other: %s may z-fight%s up to %s%s.", count,
+              count == 1 ? "" : "s", count == 1 ? "s" : "", asked(p, s, s->gap).text,
+              how_many(scene_fighting(s), count).text, s->triangles == NULL ? " " SLANT_FACING : "",
+              asked(p, s, s->within).text, also);
+}
+
+/* Which model decided, and whether a simpler one would have: the simplest that does, else in how many none does. */
+static void say_models(page *p, const scene *s) {
+    char said[LINE_SIZE] = "";
+    const bool slanted = s->setup.spec.triangles.width > 0, shader = s->setup.shader;
+    for (size_t i = 0; i < s->model_count; i++) {
+        const scene_simpler *m = &s->models[i];
+        const char *const which = strcmp(m->model, "float") == 0 ? " " SLANT_FACING : "";
+        if (m->differs == 0) {
+            snprintf(said, sizeof said, "; %s%s decides alike", m->model, which);
+            break;
+        }
+        append(said, sizeof said, i == 0 ? "; %s%s differs in %zu" : ", %s%s in %zu", m->model, which,
+               (size_t)m->differs);
+    }
+    page_text(p, "Decided in %s, %s%s.", shader ? "float, of the shader" : dp_model_name(s->setup.spec.model),
+              slanted ? "at any slant" : SLANT_FACING, said);
+}
+
 static void say_head(page *p, void *of) {
     const scene *s = of;
     const model_notes *n = &s->model.notes;
-    const size_t count = s->found.findings, fights = scene_fighting(s);
+    const size_t count = s->found.findings;
     p->unit = s->unit;
     page_title(p, "%s: %zu triangle%s, %zu surface%s, %s across; judged up to %s", s->file, s->model.triangles,
                s->model.triangles == 1 ? "" : "s", s->model.surfaces, s->model.surfaces == 1 ? "" : "s",
@@ -116,9 +149,9 @@ static void say_head(page *p, void *of) {
     else if (s->eyes.count > 0)
         say_seen(p, s);
     else
-        page_text(p, "%zu pair%s of surfaces lie%s within %s of each other: %s may z-fight up to %s.", count,
-                  count == 1 ? "" : "s", count == 1 ? "s" : "", asked(p, s, s->gap).text, how_many(fights, count).text,
-                  asked(p, s, s->within).text);
+        say_everywhere(p, s);
+    if (count > 0)
+        say_models(p, s);
     if (s->required)
         page_text(p, "%s%s%s  %s nearer than %s.", s->passed ? p->good : p->bad, s->passed ? "pass" : "FAIL", p->plain,
                   s->passed ? "no surfaces z-fight" : "surfaces may z-fight", asked(p, s, s->within).text);
@@ -297,8 +330,19 @@ static const column bias_columns[] = {{FIELD(scene_bias, api, "api", "")},
                                       {FIELD(scene_bias, factor, "factor", "")},
                                       {.kind = COLUMN_END}};
 
+static const column model_columns[] = {{FIELD(scene_simpler, model, "model", "")},
+                                       {FIELD(scene_simpler, surfaces, "surfaces", "")},
+                                       {FIELD(scene_simpler, fights, "fights", "")},
+                                       {FIELD(scene_simpler, differs, "differs", "")},
+                                       {.kind = COLUMN_END}};
+
+static void *next_model(void *of, size_t i) {
+    scene *s = of;
+    return i < s->model_count ? &s->models[i] : NULL;
+}
+
 /* Conditions. */
-enum { FROM_EYES = 1, REQUIRED = 2 };
+enum { FROM_EYES = 1, REQUIRED = 2, FACING = 4 };
 
 static const column eyes_columns[] = {
     {FIELD(scene_eyes, camera, "camera", "")},         {FIELD(scene_eyes, path, "path", "")},
@@ -363,6 +407,9 @@ static const column columns[] = {
     {FIELD(scene, found.cut, "cut", ""), .only = AS_JSON},
     {PART(scene, bias, "bias", bias_columns), .only = AS_JSON},
     {GROUP("left_out", left_columns), .only = AS_JSON},
+    {LIST("models", model_columns, next_model), .only = AS_JSON},
+    {PART(scene, assumed, "any_slant", model_columns), .only = AS_JSON, .pointed = true, .optional = true},
+    {PART(scene, view, "assumed", slant_view_columns), .only = AS_JSON, .when = FACING},
     {PART(scene, picture, "render", render_columns), .only = AS_JSON, .pointed = true, .optional = true},
     {LIST("findings", finding_columns, next_finding), .only = AS_JSON | AS_CSV},
     {.kind = COLUMN_END}};
@@ -378,6 +425,7 @@ static void count(scene *s) {
 
 report_spec scene_report(scene *s) {
     count(s);
-    const unsigned when = (s->eyes.count > 0 ? FROM_EYES : 0U) | (s->required ? REQUIRED : 0U);
+    const unsigned when =
+        (s->eyes.count > 0 ? FROM_EYES : 0U) | (s->required ? REQUIRED : 0U) | (s->assumed != NULL ? FACING : 0U);
     return (report_spec){"scene", columns, s, when, .label = LABEL, .head = say_head, .notes = say_notes};
 }

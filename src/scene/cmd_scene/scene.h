@@ -53,6 +53,12 @@ typedef struct scene_bias {
     double units, factor;
 } scene_bias;
 
+/* What another model makes of the findings: how many may fight, and how many of them otherwise than was decided. */
+typedef struct scene_simpler {
+    const char *model, *surfaces; /* "facing" or "any slant" */
+    uint64_t fights, differs;
+} scene_simpler;
+
 /* The eyes from which a model is judged. */
 typedef struct scene_eyes {
     scene_eye *eye; /* in the order of the file */
@@ -74,6 +80,12 @@ typedef struct scene {
     scene_finding *findings;
     const char *file, *unit, *transforms;
     scene_bias bias;
+    scene_simpler models[DP_MODEL_COUNT]; /* the simpler ones, the simplest first */
+    size_t model_count;
+    scene_simpler
+        slanted; /* where surfaces face the camera: those at any slant, in this view; more may be near enough */
+    dp_triangles view;
+    const scene_simpler *assumed; /* null where they do not, or nothing is guaranteed at a slant */
     scene_rendered rendered;
     const scene_rendered *picture; /* null without --render */
     double gap, angle, within, extent;
@@ -110,6 +122,9 @@ int scene_eyes_judge(scene *s);
 
 /** Finds the bias of --api that brings one of two coplanar surfaces before the other up to `within`. */
 void scene_bias_take(scene *s);
+
+/** Finds what simpler models would have decided. */
+void scene_models_take(scene *s);
 
 /** The two surfaces, "'wall' (brick) and 'sign' (tin)". @return out */
 char *scene_surfaces(const scene_finding *f, char *out, size_t size);
