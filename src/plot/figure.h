@@ -34,14 +34,17 @@ typedef struct figure_request {
     uint64_t census;                   /**< most depths that a census may visit for the figure; 0: none is made */
     const struct shadow_cascade *maps; /**< for the figures of shadow maps, map_count of them, at most CHART_PANELS */
     size_t map_count;
-    const raster_row *raster;          /**< for the figures that draw */
-    double slant, azimuth;             /**< the normal of what they draw, see raster/fight.h; degrees */
-    const struct need_file *file;      /**< for the figures that take a file, else null */
-    const struct fights_asked *fights; /**< for the figures of a model, else null: see scene.h */
-    const method_family_row *family;   /**< for the figures that show methods, else null */
-    unsigned cases;                    /**< its cases, bits, where times are measured, */
-    const char *where;                 /**< and in words at which planes, on which machine */
-    int columns, rows;                 /**< how finely to compute: pixels of the figure; see refine.h */
+    const struct shadow_engine *engine; /**< whose bias is shown beside; null: none, */
+    double bias, normal_bias;           /**< its numbers, */
+    const struct bias_api *api;         /**< and what units are of */
+    const raster_row *raster;           /**< for the figures that draw */
+    double slant, azimuth;              /**< the normal of what they draw, see raster/fight.h; degrees */
+    const struct need_file *file;       /**< for the figures that take a file, else null */
+    const struct fights_asked *fights;  /**< for the figures of a model, else null: see scene.h */
+    const method_family_row *family;    /**< for the figures that show methods, else null */
+    unsigned cases;                     /**< its cases, bits, where times are measured, */
+    const char *where;                  /**< and in words at which planes, on which machine */
+    int columns, rows;                  /**< how finely to compute: pixels of the figure; see refine.h */
 } figure_request;
 
 /** Bits for the options that a figure uses. */
@@ -115,8 +118,8 @@ void figure_range(const figure_request *request, double *lo, double *hi);
 chart_panel *figure_panel(const figure_request *request, chart *out, chart_axis y);
 
 figure_build distribution_build, share_build, error_build, interval_build, budget_build, needs_build, map_build,
-    linear01_build, pareto_build, cost_build, stability_build, normals_build, shadow_build, world_build, fight_build,
-    scene_build;
+    linear01_build, pareto_build, cost_build, stability_build, normals_build, shadow_build, shadow_distance_build,
+    world_build, fight_build, scene_build;
 
 /** Figures whose measuring takes long or differs from run to run, drawn of what was measured. */
 const char *pareto_draw(const method_family_row *family, const bench_result *results, size_t count, chart *out);

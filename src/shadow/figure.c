@@ -1,15 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Shadow maps: a panel for each, in it the gap that each of the three biases opens on surfaces at each angle to the
- * light, and what the causes of acne take there. All are lengths along the light.
+ * light, and what the causes of acne take there; of a light that has a place where receivers are nearest. With an
+ * engine its bias stands beside what is needed: where it is less there may be acne. All are lengths along the light.
+ * Another shows the same of the greatest angle against the distance.
  */
 #include <math.h>
 #include <stdio.h>
 
 #include "core/append.h"
+#include "core/elementary.h"
 #include "draw/theme.h"
 #include "plot/figure.h"
-#include "shadow/shadow.h"
+#include "shadow/engine.h"
+#include "shadow/ground.h"
 
 enum { POINTS = 181 };
 
@@ -17,8 +21,16 @@ enum { POINTS = 181 };
 typedef struct mapped {
     const shadow_light *light;
     shadow_need need;
-    double depth; /* of the box, scene units */
+    double depth; /* scene units that are all of window depth there */
+    const figure_request *request;
 } mapped;
+
+static mapped mapped_of(const figure_request *request, const shadow_light *light) {
+    mapped m = {.light = light, .request = request};
+    shadow_need_of(light, &m.need);
+    m.depth = shadow_ground_at(light, light->receiver_lo).depth;
+    return m;
+}
 
 static double angle_at(const mapped *m, int i) {
     return m->light->triangles.slant_hi * i / (POINTS - 1);
@@ -45,6 +57,27 @@ static double group_at(const mapped *m, int group, double angle) {
     return sum;
 }
 
+/* All causes together. */
+static double needed_at(const mapped *m, int which, double angle) {
+    double sum = 0.0;
+    (void)which;
+    for (int k = 0; k < GROUPS; k++)
+        sum += group_at(m, k, angle);
+    return sum;
+}
+
+/* What an engine's bias gives there: along the ray, by the slope, and along the normal. */
+static double given_at(const mapped *m, int which, double angle) {
+    const figure_request *r = m->request;
+    const shadow_given given = shadow_engine_gives(r->engine, m->light, r->api, r->bias, r->normal_bias);
+    const ground g = shadow_ground_at(m->light, m->light->receiver_lo);
+    const double slant = shadow_radians(angle);
+    (void)which;
+    return given.window_least * m->depth +
+           given.factor * shadow_lean(m->light, &g, slant) * fmax(g.texel_x, g.texel_y) +
+           shadow_given_offset(&given, angle) / dp_cos(slant);
+}
+
 static double gap_at(const mapped *m, int way, double angle) {
     double along_light, along_normal;
     shadow_gap_at(m->light, &m->need.bias[way], angle, &along_light, &along_normal);
@@ -67,12 +100,24 @@ static void add_curve(chart *out, chart_panel *panel, const mapped *m, value_at 
     }
 }
 
+static void name_given(const figure_request *request, char *name, size_t size) {
+    snprintf(name, size, "given, %.24s", request->engine->name);
+}
+
+/* In place of the causes, one by one. */
+static void add_given(chart *out, chart_panel *panel, const mapped *m) {
+    char name[32];
+    name_given(m->request, name, sizeof name);
+    add_curve(out, panel, m, needed_at, 0, (chart_style){0, 0, 0, false}, "", "needed");
+    add_curve(out, panel, m, given_at, 0, (chart_style){1, 0, 1, false}, "", name);
+}
+
 static void add_panel(chart *out, const figure_request *request, size_t i) {
     const shadow_cascade *c = &request->maps[i];
-    const dp_spec *spec = &c->light.setup.spec;
-    mapped m = {.light = &c->light};
-    shadow_need_of(m.light, &m.need);
-    m.depth = spec->zfar - spec->znear;
+    shadow_light light = c->light;
+    if (light.kind != SHADOW_SUN)
+        light.receiver_hi = light.receiver_lo;
+    const mapped m = mapped_of(request, &light);
     chart_panel *panel = chart_add_panel(out);
     panel->x = (chart_axis){.hi = m.light->triangles.slant_hi,
                             .label = "angle between the surface's normal and the light",
@@ -82,12 +127,78 @@ static void add_panel(chart *out, const figure_request *request, size_t i) {
     if (request->map_count > 1)
         snprintf(panel->title, sizeof panel->title, "Cascade %zu: %.3g to %.3g, texel %.3g", i + 1, c->from, c->to,
                  m.need.texel);
-    for (int k = 0; k < GROUPS; k++)
+    else if (light.kind != SHADOW_SUN)
+        snprintf(panel->title, sizeof panel->title, "At z = %.3g, texel %.3g", light.receiver_lo, m.need.texel);
+    for (int k = 0; k < GROUPS && request->engine == NULL; k++)
         add_curve(out, panel, &m, group_at, k, (chart_style){k, 0, k, false}, "", groups[k].name);
+    if (request->engine != NULL)
+        add_given(out, panel, &m);
     for (int k = 0; k < SHADOW_WAY_COUNT; k++)
         if (isfinite(gap_at(&m, k, panel->x.hi)))
             add_curve(out, panel, &m, gap_at, k, (chart_style){-1, THEME_DOTTED * k, -1, false}, "gap, ",
                       shadow_way_name((shadow_way)k));
+}
+
+/* ---- Against the distance ---------------------------------------------------------------------------------------- */
+
+enum { DEPTHS = 65 };
+
+typedef struct curve_row {
+    const char *name;
+    value_at *value;
+    int which;
+    chart_style style;
+} curve_row;
+
+static const char *add_distances(const figure_request *request, chart *out) {
+    static const curve_row rows[] = {
+        {"needed", needed_at, 0, {0, 0, 0, false}},
+        {"", given_at, 0, {1, 0, 1, false}}, /* where an engine is named */
+        {"gap, constant", gap_at, SHADOW_CONSTANT, {-1, 0, -1, false}},
+        {"gap, normal offset", gap_at, SHADOW_NORMAL, {-1, THEME_DOTTED * SHADOW_NORMAL, -1, false}}};
+    const shadow_light *whole = &request->maps[0].light;
+    const double lo = whole->receiver_lo, hi = whole->receiver_hi, most = whole->triangles.slant_hi;
+    chart_panel *panel = chart_add_panel(out);
+    panel->x =
+        (chart_axis){.scale = CHART_LOG,
+                     .lo = lo,
+                     .hi = hi,
+                     .label = shadow_holds_distance(whole) ? "distance from the light" : "depth before the light",
+                     .key = "z",
+                     .unit = "scene units"};
+    panel->y = (chart_axis){.scale = CHART_LOG, .label = "along the light", .key = "length", .unit = "scene units"};
+    snprintf(panel->title, sizeof panel->title, "At %.3g degrees", most);
+    for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
+        chart_series *s = rows[k].value == given_at && request->engine == NULL
+                              ? NULL
+                              : chart_add_series(out, panel, CHART_LINE, DEPTHS);
+        if (s == NULL)
+            continue;
+        s->style = rows[k].style;
+        snprintf(s->name, sizeof s->name, "%s", rows[k].name);
+        if (rows[k].value == given_at)
+            name_given(request, s->name, sizeof s->name);
+        for (int i = 0; i < DEPTHS; i++) {
+            shadow_light light = *whole;
+            const double z = i == 0 ? lo : i == DEPTHS - 1 ? hi : lo * dp_pow(hi / lo, (double)i / (DEPTHS - 1));
+            light.receiver_lo = light.receiver_hi = z;
+            const mapped m = mapped_of(request, &light);
+            const double y = rows[k].value(&m, rows[k].which, most);
+            s->x[i] = z;
+            s->y[i] = isfinite(y) && y > 0.0 ? y : (double)NAN;
+        }
+    }
+    chart_fit(out);
+    return NULL;
+}
+
+const char *shadow_distance_build(const figure_request *request, chart *out) {
+    const shadow_light *whole = &request->maps[0].light;
+    if (whole->kind == SHADOW_SUN)
+        return "plot shadow-distance: needs --spot or --point, for the sun is as far from all";
+    if (!(whole->receiver_lo < whole->receiver_hi))
+        return "plot shadow-distance: receivers must lie at more than one depth";
+    return add_distances(request, out);
 }
 
 static double texel_of(const figure_request *request, size_t map) {

@@ -8,7 +8,7 @@
 #include "cli/option/option.h"
 #include "printed.h"
 
-enum { LINES_MOST = 128, PER_COMMAND = 8 };
+enum { LINES_MOST = 128, PER_COMMAND = 10 };
 
 /* Lines of each command, in which an option is tried in turn until it is seen to do something. */
 static const struct {
@@ -59,8 +59,9 @@ static const struct {
       "texture --synthetic plane --size 64x36 --product effect:motion-vector --pixel 3,4"}},
     {"plot",
      {"plot error -F d24 -m d3d -o -", "plot budget -F d24 -m d3d -o -", "plot scene tests/models/street.obj -o -",
-      "plot shadow -o -", "plot fight -o -", "plot error -F d24 -m log -o -",
-      "plot budget -F d24 -m d3d --viewport 640x480 -o -", "plot budget -F d24 -m log -o -"}},
+      "plot shadow -o -", "plot shadow --spot 60 -F d24 -o -", "plot shadow --engine three -o -", "plot fight -o -",
+      "plot error -F d24 -m log -o -", "plot budget -F d24 -m d3d --viewport 640x480 -o -",
+      "plot budget -F d24 -m log -o -"}},
 };
 
 /* A value of each that no command has by default; of a flag the empty one. */

@@ -136,19 +136,21 @@ static const char *others_of(const command_row *v, unsigned part, char text[DESC
     return text;
 }
 
-/* Options of single parts, which the command that has their name describes, or the first that takes them. */
+/* Options of single parts, which the command describes that has their name, or the first word of it, else the first
+ * that takes them. */
 static void list_others(page *p, const command_row *v) {
     command_part part;
     bool headed = false;
     for (size_t i = 0; v->shown != 0 && option_part_get(v, i, &part); i++) {
-        char text[DESCRIPTION_SIZE], takers[OPTION_TEXT_SIZE] = "", label[64];
+        char text[DESCRIPTION_SIZE], takers[OPTION_TEXT_SIZE] = "", label[64], name[64];
         if (*others_of(v, part.bits, text, takers) == '\0')
             continue;
         if (!headed)
             output_format(p->out, "\nOptions of single figures\n");
         headed = true;
         snprintf(label, sizeof label, "  %s %s", v->name, part.words);
-        append(text, sizeof text, ": see 'depthprec help %s'", command_find(part.words) != NULL ? part.words : takers);
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(part.words, "-"), part.words);
+        append(text, sizeof text, ": see 'depthprec help %s'", command_find(name) != NULL ? name : takers);
         page_wrapped(p, label, text);
     }
 }

@@ -21,6 +21,7 @@
 #include "report/number.h"
 #include "scene/cmd_scene/drawing.h"
 #include "shadow/cmd_shadow/maps.h"
+#include "shadow/engine.h"
 #include "solve/cmd_check/check_report.h"
 
 enum { WIDTH = 800, HEIGHT = 500 };
@@ -388,13 +389,26 @@ static int resolve_shadow(plotting *p) {
     const int status = shadow_maps_make(&p->shadow, &o.camera.formats[0], o.camera.mappings[0], &p->maps);
     p->request.maps = p->maps.items;
     p->request.map_count = p->maps.count;
+    if (p->maps.whole.kind != SHADOW_SUN) { /* one map, at all its depths */
+        p->maps.items[0].light = p->maps.whole;
+        p->request.map_count = 1;
+    }
+    if ((p->request.engine = o.shadow.engine) != NULL) {
+        const double *standard = o.shadow.engine->standard[p->maps.whole.kind];
+        p->request.bias = isnan(o.shadow.bias) ? standard[0] : o.shadow.bias;
+        p->request.normal_bias = isnan(o.shadow.normal_bias) ? standard[1] : o.shadow.normal_bias;
+        p->request.api = shadow_asked_api(&p->shadow, 0);
+    }
     p->chart->unit = camera_unit(&o.camera);
     char *const subtitle = p->chart->subtitle;
     const size_t size = sizeof p->chart->subtitle;
     snprintf(subtitle, size, "%s %s, %u x %u texels, filter of %u x %u; ", o.camera.formats[0].name,
              dp_mapping_get(o.camera.mappings[0])->name, o.shadow.size[0], o.shadow.size[1], o.shadow.kernel,
              o.shadow.kernel);
-    if (p->maps.view.count > 0)
+    if (p->maps.whole.kind != SHADOW_SUN)
+        append(subtitle, size, "%s light, near %s, far %s", o.shadow.point ? "point" : "spot",
+               number_full(o.camera.znear).text, number_full(o.camera.zfar).text);
+    else if (p->maps.view.count > 0)
         append(subtitle, size, "view near %s, far %s", number_full(o.camera.znear).text,
                number_full(o.camera.zfar).text);
     else

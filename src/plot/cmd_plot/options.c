@@ -44,6 +44,7 @@ static const option_use of_scene[] = {OWN("format", DEFAULT("fp32")), OWN("mappi
 static const option_use of_shadow[] = {OWN("format", DEFAULT("fp32")), OWN("mapping", DEFAULT("d3d")),
     OWN("viewport", HELP("size of the view in pixels; sets its aspect ratio"), DEFAULT("1920x1080")),
     OWN("from-origin", HELP(SHADOW_FROM_ORIGIN), DEFAULT("0"), WITHOUT(SHADOW_FROM_ORIGIN_OUT)),
+    TAKE("spot"), TAKE("point"), TAKE("distance"), TAKE("engine"), TAKE("bias"), TAKE("normal-bias"),
     GROUP_OF(shadow_map_uses), GROUP_OF(shadow_cascade_uses), END};
 static const option_use of_fight[] = {OWN("slant", .argument = "SLANT,AZIMUTH", .parse = parse_slant_or_plane,
     DEFAULT("60,45"),
