@@ -5,9 +5,6 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include <gsl/gsl_sort_double.h>
-#include <gsl/gsl_statistics_double.h>
-
 #include "method/bound.h"
 
 /* How long one timing should last: long enough for the clock, short enough that the machine stays in one mood. */
@@ -87,12 +84,6 @@ static double once(method_run *run, const method_call *call, size_t rounds) {
     return (now() - start) / (double)rounds / (double)call->in->count;
 }
 
-bench_times bench_statistics(double *times, size_t count) {
-    gsl_sort(times, 1, count);
-    const double lower = gsl_stats_quantile_from_sorted_data(times, 1, count, 0.25);
-    return (bench_times){times[0], (lower - times[0]) / times[0]};
-}
-
 typedef struct contestant {
     method_run *run; /* null: not timed here */
     void *state;
@@ -125,6 +116,7 @@ static void time_methods(contestant *all, bench_result *results, size_t count, i
         results[i].limit = limit.least;
         if (all[i].run == NULL) {
             results[i].ns = all[i].call.row->cost;
+            results[i].spread = all[i].call.row->spread;
             continue;
         }
         const bench_times times = bench_statistics(all[i].times, (size_t)repetitions);

@@ -39,8 +39,8 @@ static field gather(const method_family_row *family, const bench_result *results
         if (isnan(error) || !isfinite(r->ns) || !(r->ns > 0))
             continue;
         f.methods[f.count++] = (timed){r, error, is};
-        f.limit = r->limit;
-        f.time = (chart_extent){fmin(f.time.lo, r->limit > 0 ? fmin(r->limit, r->ns) : r->ns), fmax(f.time.hi, r->ns)};
+        f.limit = r->row->own != NULL ? 0 : r->limit; /* of this processor, and not of a device */
+        f.time = (chart_extent){fmin(f.time.lo, f.limit > 0 ? fmin(f.limit, r->ns) : r->ns), fmax(f.time.hi, r->ns)};
         if (isinf(error))
             continue;
         f.error = (chart_extent){fmin(f.error.lo, fmax(error, exact)), fmax(f.error.hi, error)};

@@ -146,7 +146,8 @@ struct method_row {
      * nothing to measure; its time is `cost`, and what is proven of it `known`, NaN where they are not known. */
     void *own;
     double known;
-    double asked; /**< of a function of somebody's: the error from which on it fails; else 0 */
+    double spread; /**< of that time, as bench_times has it */
+    double asked;  /**< of a function of somebody's: the error from which on it fails; else 0 */
     /** Null, or told which set-ups run is called for next, with so many inputs: many at once take less time. */
     void (*expect)(const method_row *row, const dp_setup *setups, size_t count, size_t inputs);
     bool behind; /**< others are faster and more exact for every far/near: text shows it only where all are asked for */

@@ -236,6 +236,31 @@ TEST(test_times) {
     json_decref(root);
 }
 
+/* Without functions of anybody's: ours that GLSL has, on that device, of which the processor's memory is no limit; and
+ * it is said where it is no GPU. */
+TEST(ours_on_a_device) {
+    need_device(false);
+    json_t *root = json_printed(0, "plot pareto --json --device 0");
+    const char *where = text_at(root, "subtitle");
+    const json_t *series, *point;
+    size_t s, i, names = 0, spreads = 0;
+    assert_true((strstr(where, "llvmpipe") != NULL) == (strstr(where, "; in software") != NULL));
+    json_array_foreach(node_at(root, "panels[0].series"), s, series) {
+        assert_string_not_equal(text_at(series, "name"), "moving the same bytes");
+        json_array_foreach(json_object_get(series, "points"), i, point) {
+            const char *label = json_string_value(json_object_get(point, "label"));
+            names += label != NULL && (strcmp(label, "unity") == 0 || strcmp(label, "complement") == 0);
+            spreads += strcmp(text_at(series, "name"), "spread of the times") == 0;
+            assert_true(number_at(point, "time") > 0 && (label == NULL || strcmp(label, "chebyshev") != 0));
+        }
+    }
+    assert_true(names == 2 && spreads > 2);
+    json_decref(root);
+    root = json_printed(0, "methods linearize --device 0");
+    assert_true(number_at(row_of(root, "unity"), "device_ns") > 0 && number_at(row_of(root, "unity"), "ns") > 0);
+    json_decref(root);
+}
+
 TEST(test_shown) {
     need_device(false);
     json_t *root = json_printed(0, "methods linearize --mine %s:stored --define n=near --define f=far", file());
@@ -255,7 +280,10 @@ TEST(test_refused) {
     check_says(2, "--mine: is for the family linearize, got encode", "plot pareto encode --csv --mine %s:book", path);
     check_says(2, "--mine: needs FAMILY", "methods --mine %s:book", path);
     check_says(2, "--define: needs --mine", "methods linearize --define a=1");
-    check_says(2, "--device: needs --mine", "plot pareto --csv --device 0");
+    check_says(2, "--device: needs one family", "plot pareto all --csv --device 0");
+    check_says(2, "--device: is for the family linearize, got encode", "plot pareto encode --csv --device 0");
+    check_says(2, "--device: needs --mine in the figure stability", "plot stability --csv --device 0");
+    check_says(2, "--device: needs FAMILY", "methods --device 0");
     check_says(2, "--mine: does not apply to the figure error", "plot error --csv --mine %s:book", path);
     check_says(2, "--mine: must be FILE:FUNCTION, or FILE.spv", "methods linearize --mine %s", path);
     check_says(2, "absent is no function of the file", "methods linearize --mine %s:absent", path);

@@ -6,6 +6,7 @@
 #include "camera/cmd/setups.h"
 #include "judge/cmd_judge/request.h"
 #include "judge/judge.h"
+#include "probe/compute.h"
 
 enum { SHADER_TEXT_SIZE = 1024 };
 
@@ -43,9 +44,9 @@ void shader_say(const judge_request *o, const judge_candidate *c, char out[SETUP
 /** Values for `each` depths with what it is given of one camera after another. */
 int shader_values(shader *s, const dp_setup *cameras, size_t count, const float *in, size_t each, float *out);
 
-/** Nanoseconds of a call, of those that are timed in turns on the device: the least, because what disturbs a driver
- * that shares its processor with others makes it slower alone. */
-int shader_times(shader *const *all, size_t count, double *out);
+/** Nanoseconds of a call, COMPUTE_TIMES of each that is timed in turns on the device, which the last of them is told.
+ */
+int shader_times(shader *const *all, size_t count, double (*out)[COMPUTE_TIMES]);
 
 /** All codes of the format, or many of them, as what is named takes them. */
 int shader_all(shader *s, judge_pairs *pairs, judgement *out);

@@ -25,14 +25,19 @@ static int damaged(const shader *s) {
     return fail_io(s, "what the driver made is damaged");
 }
 
+/* A processor's times are none of a GPU. */
+static void name_device(shader *s, const shot_machine *machine) {
+    const shot_device *d = &machine->device[machine->chosen];
+    snprintf(s->device, sizeof s->device, "%s; %s%s", d->name, d->driver, d->software ? "; in software" : "");
+}
+
 static int start(shader *s, FILE **values) {
     shot_machine machine = {0};
     char error[COMPUTE_ERROR_SIZE];
     const bool few = s->device[0] == '\0'; /* the first time */
     if (!compute_values(s->o->judge.device, s->run, 0, &machine, values, &s->too_long, error))
         return s->too_long && !few ? EXIT_FINE : fail_io(s, error);
-    const shot_device *d = &machine.device[machine.chosen];
-    snprintf(s->device, sizeof s->device, "%s; %s", d->name, d->driver);
+    name_device(s, &machine);
     return EXIT_FINE;
 }
 
@@ -189,25 +194,21 @@ int shader_values(shader *s, const dp_setup *cameras, size_t count, const float 
     return status;
 }
 
-int shader_times(shader *const *all, size_t count, double *out) {
+int shader_times(shader *const *all, size_t count, double (*out)[COMPUTE_TIMES]) {
     const judge_request *o = all[0]->o;
     compute_run runs[COMPUTE_TIMED_MOST] = {{0}};
     shot_machine machine = {0};
     char error[COMPUTE_ERROR_SIZE];
     FILE *times = NULL;
-    double ns = 0;
     bool endless, good = true;
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < count; i++)
         runs[i] = *(const compute_run *)all[i]->timed;
-        out[i] = (double)INFINITY;
-    }
     if (!compute_values(o->judge.device, runs, count, &machine, &times, &endless, error))
         return fail_io(all[0], error);
-    for (size_t k = 0; k < COMPUTE_TIMES * count && good; k++) {
-        good = fread(&ns, sizeof ns, 1, times) == 1;
-        out[k % count] = fmin(out[k % count], ns);
-    }
+    for (size_t k = 0; k < COMPUTE_TIMES * count && good; k++)
+        good = fread(&out[k % count][k / count], sizeof out[0][0], 1, times) == 1;
     sandbox_close(times);
+    name_device(all[count - 1], &machine);
     return good ? EXIT_FINE : damaged(all[0]);
 }
 

@@ -173,8 +173,9 @@ static void say_mine(page *p, const measuring *b) {
                   : !m->code.camera                            ? "knows one camera alone, and is not run for others"
                                                                : "no bound is known");
     }
-    page_line(p, "fails from, of yours: the far/near from which its error exceeds %s",
-              number_of(b->results[b->count - 1].row->asked, 3).text);
+    if (b->o->judge.mine_count > 0)
+        page_line(p, "fails from, of yours: the far/near from which its error exceeds %s",
+                  number_of(b->results[b->count - 1].row->asked, 3).text);
 }
 
 static void say_losses(page *p, const method_family_row *f) {
@@ -434,7 +435,7 @@ static int list_families(const judge_request *o, output *out) {
 
 /* Refuses options of a camera where no family is named. */
 static int check_family(const judge_request *o) {
-    static const char *const of_family[] = {"format", "mapping", "ortho", "tolerance", "mine"};
+    static const char *const of_family[] = {"format", "mapping", "ortho", "tolerance", "mine", "device"};
     char text[NAMES_SIZE];
     for (size_t i = 0; i < sizeof of_family / sizeof of_family[0] && o->line->operand_row == NULL; i++)
         if (option_given(o->line, of_family[i]))
@@ -507,7 +508,7 @@ int cmd_methods(void *request) {
         return status;
     if (o->line->operand_row == NULL)
         return list_families(o, &out);
-    if (o->judge.mine_count > 0)
+    if (o->judge.mine_count > 0 || o->judge.device != NULL)
         status = mine_open(o, &b.asked, false, &b.mine);
     if (status == EXIT_FINE)
         status = measure(&b);

@@ -69,6 +69,8 @@ static int check_ortho(const judge_request *o, const method_family_row *family) 
 int methods_resolve(const judge_request *o, const method_family_row *family, methods_asked *out) {
     if (o->judge.mine_count > 0 && family != &linearize_family)
         return option_error("mine", "is for the family linearize, got %s", family->name);
+    if (o->judge.device != NULL && family != &linearize_family)
+        return option_error("device", "is for the family linearize, got %s", family->name);
     const int status = check_ortho(o, family);
     if (status != EXIT_FINE)
         return status;

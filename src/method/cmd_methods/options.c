@@ -19,8 +19,8 @@ static const option_use uses[] = {
 
 static const option_rule rules[] = {
     NEEDS("define", "mine", ", a function of yours"),
-    NEEDS("device", "mine", ", a function of yours"),
     CONFLICTS("ortho", "mine", NULL),
+    CONFLICTS("ortho", "device", NULL),
     {.option = NULL}};
 /* clang-format on */
 

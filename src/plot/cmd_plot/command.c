@@ -200,7 +200,7 @@ static void subtitle_of(const plot_request *o, const figure_request *request, bo
 
 /* Each family in its first case. */
 static int resolve_all(plotting *p) {
-    static const char *const of_one[] = {"format", "mapping", "mine"};
+    static const char *const of_one[] = {"format", "mapping", "mine", "device"};
     for (size_t i = 0; i < sizeof of_one / sizeof of_one[0]; i++)
         if (option_given(p->o->line, of_one[i]))
             return option_error(of_one[i], "needs one family: plot %s FAMILY", p->row->name);
@@ -210,7 +210,7 @@ static int resolve_all(plotting *p) {
 
 /* Without a function of somebody's the figure of stability shows all cases of a family. */
 static int check_case(const plotting *p) {
-    static const char *const of_one[] = {"format", "mapping"};
+    static const char *const of_one[] = {"format", "mapping", "device"};
     for (size_t i = 0; i < sizeof of_one / sizeof of_one[0]; i++)
         if (p->row->build == stability_build && p->o->judge.mine_count == 0 && option_given(p->o->line, of_one[i]))
             return option_error(of_one[i], "needs --mine in the figure %s, which shows all cases", p->row->name);
@@ -221,8 +221,9 @@ static int check_case(const plotting *p) {
 static int resolve_methods(plotting *p) {
     const plot_request *o = p->o;
     char machine[192];
+    const bool on_device = o->judge.mine_count > 0 || o->judge.device != NULL;
     const char *family = o->line->operand_count > 1 ? o->line->operands[1]
-                         : o->judge.mine_count > 0  ? linearize_family.name
+                         : on_device                ? linearize_family.name
                                                     : p->row->family;
     static const char *const all[] = {"all", NULL};
     const name_list families = {.words = p->row->build == pareto_build ? all : NULL, .get = list_family};
@@ -232,9 +233,9 @@ static int resolve_methods(plotting *p) {
         status = check_case(p);
     if (status == EXIT_FINE)
         status = item.row == NULL ? resolve_all(p) : methods_resolve(&p->judge, item.row, &p->asked);
-    if (status == EXIT_FINE && o->judge.mine_count > 0)
+    if (status == EXIT_FINE && on_device)
         status = methods_single(&p->judge, &p->asked);
-    if (status == EXIT_FINE && o->judge.mine_count > 0)
+    if (status == EXIT_FINE && on_device)
         status = mine_open(&p->judge, &p->asked, p->row->build == pareto_build, &p->mine);
     if (status != EXIT_FINE)
         return status;

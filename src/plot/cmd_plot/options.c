@@ -76,7 +76,6 @@ static const option_use uses[] = {
 
 static const option_rule rules[] = {
     NEEDS("define", "mine", ", a function of yours"),
-    NEEDS("device", "mine", ", a function of yours"),
     CONFLICTS("at", "range", NULL),
     {.option = NULL}};
 /* clang-format on */
