@@ -257,16 +257,20 @@ web:
 	@$(MAKE) $(PARALLEL) $(B)/web/core.wasm $(B)/depthprec.html
 
 # Rooms that the page lacks but for these files and the options of their commands; and files of others that it lacks.
-WEB_LESS := code image method model scene shader shadow system texture
+WEB_LESS := code method model scene shader shadow system texture
 WEB_FROM := code/language method/choose method/estimate method/families method/interval method/limit method/method \
-    method/truth method/ways method/cmd_methods/methods shader/constants shader/decode texture/recognise texture/cmd_texture/products
-WEB_NOT := camera/figure_cost camera/profile_file camera/cmd/profile cli/junit cli/link cli/stop cli/cmd_help/completions draw/canvas draw/pixels \
+    method/truth method/ways method/cmd_methods/methods shader/camera shader/constants shader/decode shader/oblique shader/packing \
+    shader/sample_rounding texture/device texture/metric texture/moved texture/recognise texture/sensor texture/sensor_buffer \
+    texture/sensor_choice texture/sensor_find texture/sensor_fit texture/sensor_sample texture/sensor_surface texture/stereo texture/units \
+    $(patsubst %,texture/cmd_texture/%,camera file lattice matrix products reading source)
+WEB_NOT := cli/words solve/cmd_check/options world/cmd_world/options image/dds image/exr image/png image/ros image/tiff \
+    camera/figure_cost camera/profile_file camera/cmd/profile cli/junit cli/link cli/stop cli/cmd_help/completions draw/canvas draw/pixels \
     judge/listing judge/read_pairs judge/written judge/cmd_judge/shader probe/compile probe/opengl probe/probe probe/vulkan \
     probe/vulkan_compute quantity/cmd_table/constants quantity/cmd_table/levels report/output_file report/terminal solve/camera \
     solve/check solve/figure_needs solve/reader solve/requirement solve/setting solve/view solve/cmd_check/check_report solve/cmd_check/command \
     web/plain world/figure world/cmd_world/command zfight/figure
 WEB_SOURCES := $(sort $(filter-out $(patsubst %,src/%.c,$(patsubst %,%/%,$(WEB_LESS)) $(WEB_NOT)),$(CORE) $(ROOMS) $(wildcard src/web/*.c)) \
-    $(wildcard src/*/cmd_*/options.c) $(patsubst %,src/%.c,$(WEB_FROM)))
+    $(wildcard $(patsubst %,src/*/cmd_%/options.c,bias budget judge list plot prepass probe solve table texture zfight)) $(patsubst %,src/%.c,$(WEB_FROM)))
 
 WEB_CC ?= clang --target=wasm32-wasi
 # Instructions that browsers and node have since 2020; there is one thread, and what belongs to it is the program's.

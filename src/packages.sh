@@ -63,7 +63,7 @@ wasm  | command wasm-ld                               | lld                   | 
 wasm  | file lib/wasm32-wasi/libc.a                   | wasi-libc             | -                  | -
 wasm  | file lib/llvm*/lib/clang/*/lib/wasi/*wasm32.a | libclang-rt-dev-wasm32 | -                 | -
 web   | command node                                  | nodejs                | nodejs             | nodejs
-web   | command zopfli                                | zopfli                | zopfli             | zopfli
+web   | command xz                                    | xz-utils              | xz                 | xz
 web   | command esbuild                               | esbuild               | golang-github-evanw-esbuild | esbuild
 web   | command wasm-opt                              | binaryen              | binaryen           | binaryen
 docs  | command mandoc                                | mandoc                | mandoc             | mandoc

@@ -103,6 +103,8 @@ static bool unreadable(image_source *source, int number) {
 static bool find_length(image_source *source) {
     struct stat status;
     const int file = fileno(source->stream);
+    if (file < 0) /* memory */
+        return true;
     if (fstat(file, &status) != 0)
         return unreadable(source, errno);
     if (S_ISDIR(status.st_mode))

@@ -30,7 +30,6 @@
 #include "system/dynload.h"
 #include "system/input.h"
 #include "system/sandbox.h"
-#include "texture/strips.h"
 
 #define WAY_OUT "the native program has it"
 
@@ -143,21 +142,7 @@ bool pixels_write_png(FILE *out, const pixels *p, const notes *words) {
     missing("writing PNG is");
 }
 
-/* ---- Threads, processes, devices --------------------------------------------------------------------------------- */
-
-int strips_threads(int wanted) {
-    return wanted > 0 ? wanted : 1;
-}
-
-bool strips_run(const strips *s) {
-    for (size_t i = 0; i < s->count; i++) {
-        const size_t slot = s->take != NULL ? i % s->slots : 0;
-        s->make(s->context, i, slot, 0);
-        if (s->take != NULL && !s->take(s->context, i, slot))
-            return false;
-    }
-    return true;
-}
+/* ---- Processes, devices --------------------------------------------------------------------------------- */
 
 bool dynload_open(const library *l, dynload_function *functions[], char error[DYNLOAD_ERROR_SIZE]) {
     (void)functions;

@@ -7,6 +7,8 @@
 
 #include "camera/profile.h"
 #include "cli/link.h"
+#include "cli/words.h"
+#include "draw/pixels.h"
 #include "judge/cmd_judge/request.h"
 #include "judge/pairs.h"
 #include "method/cmd_methods/mine.h"
@@ -33,14 +35,31 @@ static int absent(const asked_line *line) {
         return absent(*(asked_line *const *)request);                                                                  \
     }
 
-ABSENT(cmd_check)
-ABSENT(cmd_code)
+/* Their options are known of where others take them, too. */
+static const option_use no_uses[] = {END};
+static const option_place no_places[] = {{.table = NULL}};
+#define ABSENT_COMMAND(of)                                                                                             \
+    const command_row command_##of = {.name = #of, .request = sizeof(void *), .places = no_places, .uses = no_uses};   \
+    ABSENT(cmd_##of)
+
+static const option_row no_rows[] = {{.name = NULL}};
+#define ABSENT_OPTIONS(of) const option_table of##_options = {.rows = no_rows};
+
+ABSENT_OPTIONS(code)
+ABSENT_OPTIONS(scene)
+ABSENT_OPTIONS(scene_eye)
+ABSENT_OPTIONS(shadow)
+ABSENT_OPTIONS(shadow_size)
+const option_use scene_model[] = {END}, shadow_cascade_uses[] = {END}, shadow_map_uses[] = {END};
+
+ABSENT_COMMAND(check)
+ABSENT_COMMAND(code)
 ABSENT(cmd_completions)
-ABSENT(cmd_methods)
-ABSENT(cmd_scene)
-ABSENT(cmd_shadow)
+ABSENT_COMMAND(methods)
+ABSENT_COMMAND(scene)
+ABSENT_COMMAND(shadow)
 ABSENT(cmd_texture)
-ABSENT(cmd_world)
+ABSENT_COMMAND(world)
 
 int constants_write(const table_request *o) {
     return absent(o->line);
@@ -87,38 +106,15 @@ ABSENT_FIGURE(world_build)
 
 #define ABSENT_TABLE(name) const named_table name##_table = {NULL, 0, 0};
 
-ABSENT_ROWS(device_row, device_get)
 ABSENT_TABLE(effect)
 ABSENT_TABLE(finder_filter)
-ABSENT_ROWS(moved_row, moved_get)
 ABSENT_TABLE(normal)
 ABSENT_TABLE(pack)
-ABSENT_TABLE(packing)
-
-sensor device_sensor(const device_row *row) {
-    (void)row;
-    return (sensor){.row = NULL};
-}
-
-const char *units_say(const image *img, char out[UNITS_TEXT_SIZE]) {
-    (void)img;
-    out[0] = '\0';
-    return out;
-}
-
-double sensor_gap(const sensor *s, double z) {
-    (void)s;
-    return z;
-}
-
-const pack_row *packing_normals(const packing *p) {
-    (void)p;
-    return NULL;
-}
 
 ABSENT_TABLE(position)
 ABSENT_TABLE(shadow_engine)
-ABSENT_ROWS(sensor_row, sensor_get)
+ABSENT_TABLE(shadow_filter)
+ABSENT_TABLE(word)
 ABSENT_TABLE(synthetic)
 
 /* Families of methods but interval, which figures are drawn by. */
@@ -197,6 +193,13 @@ int scene_figure_height(const chart *c, int width) {
 
 void scene_end(scene *s) {
     (void)s;
+}
+
+bool pixels_write_png(FILE *out, const pixels *p, const notes *words) {
+    (void)out;
+    (void)p;
+    (void)words;
+    return false;
 }
 
 /* ---- Names alone, where the program reads the profile of a GPU too --------------------------------------------- */

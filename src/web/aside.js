@@ -3,18 +3,18 @@
 // once. A page from file:// may load no other file, so that the worker's is a blob of the page's own.
 import { load } from "./engine.js";
 import { gpu } from "./gpu.js";
-import { recogniseFile } from "./image.js";
+import { answer } from "./image.js";
 
 export const inWorker = typeof document === "undefined";
 
-// The worker's side: the module, then a line or a file, answered by what the command says, or what is recognised.
+// The worker's side: the module, then a line, answered by what the command says, or by what a file says of it.
 export function serve(measure) {
     let engine;
     onmessage = async ({ data: { module, line, most, file } }) => {
         engine ??= await load(module);
         engine.measure = measure;
         engine.gpu = gpu;
-        const said = file ? await recogniseFile(engine, file) : engine.run(line, most, true);
+        const said = file ? await answer(engine, file, line.slice(line.lastIndexOf("--") + 1)) : engine.run(line, most, true);
         postMessage(said, said.values ? [said.values.buffer] : []);
     };
 }
@@ -110,7 +110,7 @@ export function createAside(module, { here, onSaid, onRun }) {
             next();
         },
 
-        // Asks what a line says, or what is recognised in a file, before all that is wanted.
+        // Asks what a line says, or what a file { id, file, words } says of it, before all that is wanted.
         ask: (line, most = Infinity, file = undefined) => new Promise((resolve) => {
             const key = keyOf(line), said = last.get(key);
             if (said !== undefined && !(said.left > 0)) return resolve(said);

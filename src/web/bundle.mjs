@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One file of all: bundle.mjs MODULE.wasm OUT.html. Style, script and the module (gzip, base64) go into page.html; the
+// One file of all: bundle.mjs MODULE.wasm OUT.html. Style, script and the module (LZMA, base64) go into page.html; the
 // policy allows just these by their hashes, and no network. Scripts are joined because file:// cannot import.
 import { execFileSync } from "node:child_process";
 import { createHash } from "node:crypto";
-import { readFileSync, writeFileSync } from "node:fs";
+import { readFileSync, statSync, writeFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 
 const [wasm, out] = process.argv.slice(2);
 const run = (program, ...words) => execFileSync(program, words, { maxBuffer: 1 << 24 });
 const path = (name) => fileURLToPath(new URL(name, import.meta.url));
 const joined = (name) => run("esbuild", "--bundle", "--minify", "--log-level=warning", path(name)).toString();
+
+// Its header gets the number of bytes, which xz leaves open.
+function packed(path) {
+    const all = run("xz", "-k", "-c", "--format=lzma", "--lzma1=preset=9e,pb=0", path);
+    all.writeBigUInt64LE(BigInt(statSync(path).size), 5);
+    return all;
+}
 
 const style = joined("page.css");
 const code = joined("page.js");
@@ -19,7 +26,7 @@ const parts = {
         "worker-src blob:", "img-src data: blob:", "base-uri 'none'", "form-action 'none'"].join("; "),
     style,
     script: code,
-    module: run("zopfli", "-c", wasm).toString("base64"),
+    module: packed(wasm).toString("base64"),
 };
 if (code.includes("</script") || style.includes("</style")) throw new Error("a part ends its element");
 const page = readFileSync(path("page.html"), "utf8").replaceAll(/@(\w+)@/g, (_, name) => parts[name]);

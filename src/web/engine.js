@@ -44,6 +44,8 @@ function system(memory, streams) {
             return 0;
         },
         fd_fdstat_set_flags: () => 0,
+        fd_filestat_get: () => BAD_HANDLE,
+        fd_tell: () => BAD_HANDLE,
         fd_prestat_get: () => BAD_HANDLE,
         fd_prestat_dir_name: () => BAD_HANDLE,
         fd_read(_fd, _pieces, _count, out) {
@@ -88,12 +90,15 @@ export async function load(from, host = () => ({})) {
         return { exports: instance.exports, memory: instance.exports.memory, streams };
     }
 
-    function call(name, words, most, cells = false) {
-        const { exports, memory, streams } = begin(most);
+    function put(room, bytes, memory) {
+        if (room === 0) throw new Error("needs more memory than there is");
+        new Uint8Array(memory.buffer, room, bytes.length).set(bytes);
+    }
+
+    function call(name, words, most, cells = false, { exports, memory, streams } = begin(most)) {
         if (cells) exports.cells(1);
         const bytes = encoder.encode(words.map((word) => word.replaceAll("\0", "\ufffd") + "\0").join(""));
-        const room = exports.words(bytes.length);
-        new Uint8Array(memory.buffer, room, bytes.length).set(bytes);
+        put(exports.words(bytes.length), bytes, memory);
         const status = exports[name](words.length);
         return { status, out: streams.text(1), err: streams.text(2), left: streams.left };
     }
@@ -126,14 +131,30 @@ export async function load(from, host = () => ({})) {
             return taken;
         },
 
-        // What is recognised in samples of one type, an index, and what stands for a window depth of 1: see image.c.
-        recognise({ type, samples, width, height, channels }) {
-            const { exports, memory, streams } = begin(Infinity), room = exports.image_room(samples.byteLength);
-            if (room === 0) throw new Error("needs more memory than there is");
-            new Uint8Array(memory.buffer, room, samples.byteLength).set(new Uint8Array(samples.buffer));
-            exports.image(type, width, height, channels);
-            const [words, why] = streams.text(1).split("\n"), [depth, top, format, reversed, exact] = words.split(" ");
-            return { depth: depth === "1", top: Number(top), format, reversed: Number(reversed), exact: exact === "1", why };
+        // A file that was dropped, opened by the words of a texture line, in an instance that stays: what is said of it, of a
+        // pixel, and the picture of its depths or of their errors. What refuses it is thrown.
+        image(words, bytes) {
+            const own = begin(Infinity), { exports, memory, streams } = own;
+            put(exports.file(bytes.length), bytes, memory);
+            const opened = call("image_open", words, Infinity, false, own);
+            if (opened.status !== 0) throw new Error(opened.err.trim().replace(/^depthprec: /, ""));
+            const said = () => {
+                const out = streams.text(1);
+                streams.bytes[1] = [];
+                return { status: 0, out, err: "" };
+            };
+            streams.bytes[1] = [];
+            return {
+                says: () => ({ status: 0, out: opened.out, err: opened.err }),
+                pixel(x, y) {
+                    exports.image_pixel(x, y);
+                    return said();
+                },
+                paint(width, height, error) {
+                    const at = exports.image_paint(width, height, error);
+                    return { ...said(), values: new Uint8ClampedArray(memory.buffer, at, 4 * width * height).slice() };
+                },
+            };
         },
 
         // The length at a step of a slider of the picture, 0 of gap and 1 of distance, with a unit or without.

@@ -1,6 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The page in place of report/output_file.c and system/input.c: no files. */
+/*
+ * The page in place of report/output_file.c and system/input.c: one file may be read, which a person dropped, and one
+ * written, rows of numbers that the page draws.
+ */
+#define _GNU_SOURCE
+#include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -9,7 +15,28 @@
 #include "system/input.h"
 #include "web/page.h"
 
+enum { FD_ROWS = 3 };
+
 static bool cells;
+static void *dropped;
+static size_t dropped_size;
+
+/** Room for the bytes of the file that may be read, whatever its name; null when out of memory. */
+PAGE_EXPORT("file") void *file_room(size_t size) {
+    dropped_size = size;
+    return dropped = malloc(size + 1);
+}
+
+FILE *input_open(const char *path) {
+    (void)path;
+    errno = ENOENT;
+    return dropped != NULL ? fmemopen(dropped, dropped_size, "rb") : NULL;
+}
+
+void input_close(FILE *in) {
+    if (in != NULL)
+        fclose(in);
+}
 
 /** Parts the cells of tables from now on, see output.h. */
 PAGE_EXPORT("cells") void part_cells(int on) {
@@ -18,7 +45,9 @@ PAGE_EXPORT("cells") void part_cells(int on) {
 
 int output_open(output *out, const char *path) {
     *out = (output){.fd = STDOUT_FILENO, .cells = cells};
-    if (path == NULL || strcmp(path, "-") == 0)
+    if (dropped != NULL && path != NULL && strcmp(path, "rows.pfm") == 0)
+        out->fd = FD_ROWS;
+    if (out->fd == FD_ROWS || path == NULL || strcmp(path, "-") == 0)
         return EXIT_FINE;
     fprintf(stderr, "depthprec: the page writes no files, got '%s': leave --output out\n", path);
     return EXIT_IO;
@@ -36,6 +65,19 @@ int output_close(output *out) {
 
 void output_abandon(output *out) {
     out->used = 0;
+}
+
+static ssize_t stream_write(void *cookie, const char *bytes, size_t size) {
+    output_bytes(cookie, bytes, size);
+    return (ssize_t)size;
+}
+
+FILE *output_stream(output *out) {
+    return fopencookie(out, "w", (cookie_io_functions_t){.write = stream_write});
+}
+
+bool output_stream_close(output *out, FILE *stream) {
+    return fclose(stream) == 0 && !output_failed(out);
 }
 
 canvas_format canvas_format_of(const char *path) {

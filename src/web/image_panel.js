@@ -1,67 +1,138 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A depth image of the visitor's: chosen or dropped anywhere on the page, shown, recognised, and what a pixel of it means to
-// set-up A. image.js reads it, in the worker; what a depth means is said by the command.
-import { sheet } from "./sheet.js";
+// A depth image of the visitor's: chosen or dropped anywhere on the page, and asked what the command texture asks: what its
+// samples are. What it holds, and how far a pixel may be off, is said by the module; image.js opens it there, in the worker.
+import { split } from "./command.js";
 
-// The page gives $; aside; setup() and line(depth) of set-up A, and take(options), which changes it; narrow(), whether there
-// is no room; otherWay, mappings that are turned round.
-export function createImagePanel({ $, aside, setup, line, take, narrow, otherWay }) {
-    const canvas = $("#image canvas"), context = canvas.getContext("2d");
-    let image = null, at = [0, 0], asked = [], files = 0;
+const WINDOW = "window", SIDE = 640;
+const HOLDS = [
+    ["", "as they are recognised"], [WINDOW, "window depth of set-up A’s camera"], ["--metric mm", "millimetres"],
+    ["--metric tum", "lengths, 5000 to the metre"], ["--metric kitti", "lengths, 256 to the metre"], ["--metric 1m", "metres"],
+];
 
-    // Holes are left out.
-    function paint() {
-        const { width, height, values, lo, hi } = image;
-        canvas.width = Math.min(width, 640);
-        canvas.height = Math.max(1, Math.round((canvas.width * height) / width));
-        const pixels = new ImageData(canvas.width, canvas.height);
-        for (let y = 0, to = 0; y < canvas.height; y++)
-            for (let x = 0; x < canvas.width; x++, to += 4) {
-                const v = values[Math.floor(((y + 0.5) * height) / canvas.height) * width + Math.floor(((x + 0.5) * width) / canvas.width)];
-                pixels.data.fill(255 * ((v - lo) / (hi - lo || 1)), to, to + 3);
-                pixels.data[to + 3] = Number.isNaN(v) ? 0 : 255;
-            }
-        context.putImageData(pixels, 0, 0);
+// The page gives $ and make; aside; setup() of set-up A, and camera(names), those of its options as words; take(options),
+// which changes it; otherWay, mappings that are turned round; packings, by name.
+export function createImagePanel({ $, make, aside, setup, camera, take, otherWay, packings }) {
+    const canvas = $("#image canvas"), context = canvas.getContext("2d"), holds = $("#holds");
+    const option = (value, text) => make("option", { value }, text);
+    holds.append(...HOLDS.map(([value, text]) => option(value, text)), ...packings.map((name) => option(`--packing ${name}`, `packed: ${name}`)));
+    let file = null, files = 0, facts = null, plain = null, at = [0, 0], asked = [], shown = [];
+
+    // Where nothing is said, the command looks whether they can be lengths alone; a camera says that they are not.
+    function words() {
+        const planes = camera(["near", "far", "ortho", "unit"]);
+        if (holds.value === "") return facts?.window && facts.units.length === 0 ? [...planes, ...direction()] : [];
+        if (holds.value === WINDOW) return [...planes, ...direction()];
+        return [...(holds.value.startsWith("--metric") || holds.value.startsWith("--stereo") ? camera(["unit"]) : planes), ...split(holds.value)];
+    }
+
+    // Nobody has said what the samples are, and they may be lengths.
+    const isOpen = () => facts.units.length > 0 && holds.value === "";
+
+    // Set-up A's mapping, or the other way round where the image shows that.
+    function direction() {
+        const mapping = new Map(setup()).get("mapping"), turned = plain?.direction && /reversed/.test(mapping) !== plain.reversed;
+        return mapping === undefined ? [] : ["-m", (turned && otherWay[mapping]) || mapping];
+    }
+
+    const lineOf = (said, ...what) => ["image", String(files), ...said, "--", ...what.map(String)];
+    const ask = (said, ...what) => {
+        const line = lineOf(said, ...what);
+        return { line, answer: aside.ask(line, Infinity, { id: files, file, words: ["texture", file.name, ...said] }) };
+    };
+    const fault = ({ err }) => err.trim().replace(`${file.name}: `, "");
+
+    async function paint() {
+        const mine = shown, width = Math.min(facts.width, SIDE), height = Math.max(1, Math.round((width * facts.height) / facts.width));
+        const said = await ask(mine, "paint", width, height, Number($("#errors").checked)).answer;
+        if (mine !== shown || said.status !== 0) return;
+        [canvas.width, canvas.height] = [width, height];
+        context.putImageData(new ImageData(new Uint8ClampedArray(said.values), width, height), 0, 0);
+        $("#painted").textContent = isOpen() ? "" : said.out;
     }
 
     async function showPixel() {
-        const [x, y] = at, v = image.values[y * image.width + x], name = `Pixel ${x},${y}`, mine = line(String(v));
-        const tell = (text, ...more) => mine === asked && $("#pixel").replaceChildren(text, ...more);
         aside.leave(asked);
-        asked = mine;
-        if (Number.isNaN(v)) return tell(`${name} is a hole.`);
-        if (!image.depth) return tell(`${name} holds ${v}.`);
-        const said = await aside.ask(mine);
-        if (said.status !== 0) return tell(`${name} holds ${v}. ${said.err.trim().replace(/^depthprec: /, "")}`);
-        const coarse = image.exact ? "" : " Its samples are not the buffer’s codes, and so may be off by more than the cell says: texture --pixel of the program counts that.";
-        tell(`${name}, by set-up A:${coarse}`, ...sheet(said.out, narrow()).filter(({ tagName }) => tagName === "TABLE"));
+        if (isOpen()) return void ($("#pixel").textContent = "");
+        const { line, answer } = ask(shown, "pixel", ...at);
+        asked = line;
+        const said = await answer;
+        if (asked === line && said.status === 0) $("#pixel").textContent = said.out;
     }
 
     function move(x, y) {
         const inside = (v, size) => Math.max(0, Math.min(size - 1, v));
-        at = [inside(x, image.width), inside(y, image.height)];
+        at = [inside(x, facts.width), inside(y, facts.height)];
         showPixel();
     }
 
-    async function open(file) {
-        const mine = ++files, key = ["image", String(mine)], said = await aside.ask(key, Infinity, file);
-        aside.forget(key);
-        if (mine !== files) return;
-        $("#unread").textContent = said.status === 0 ? "" : `${file.name} ${said.err.trim()}`;
-        for (const id of ["#recognised", "#pixel", "#image canvas"]) $(id).hidden = said.status !== 0;
-        $("#image").scrollIntoView({ block: "nearest" });
-        if (said.status !== 0) return;
-        image = said;
-        paint();
-        $("#recognised").textContent = `${file.name}, ${image.width} x ${image.height}: ${image.why}.`;
-        const { format, mapping } = Object.fromEntries(setup()), turned = image.reversed >= 0 && /reversed/.test(mapping) !== (image.reversed > 0);
-        if (image.depth && (format !== image.format || (turned && mapping in otherWay)))
-            take({ format: image.format, ...(turned && mapping in otherWay && { mapping: otherWay[mapping] }) });
-        move(image.width >> 1, image.height >> 1);
+    // What would be set in set-up A, which only this button does.
+    function showUse() {
+        const own = new Map(setup()), [, mapping] = direction(), other = { format: facts.format, ...(mapping && { mapping }) };
+        const differs = facts.window && facts.differ && !isOpen() && Object.entries(other).some(([name, value]) => own.get(name) !== value);
+        $("#use-image").hidden = !differs;
+        $("#use-image").textContent = `Use ${Object.values(other).join(" ")} in set-up A`;
+        $("#use-image").onclick = () => take(other);
     }
 
+    function showFacts() {
+        $("#recognised").textContent = `${file.name}, ${facts.width} x ${facts.height}: ${facts.says}`;
+        $("#units").replaceChildren(...facts.units.map(({ option: value, text }) => {
+            const button = make("button", { type: "button" }, `${value.replace(/^--/, "")}: ${text}`);
+            button.addEventListener("click", () => {
+                if (![...holds.options].some((one) => one.value === value)) holds.append(option(value, value.replace(/^--/, "")));
+                holds.value = value;
+                follow();
+            });
+            return button;
+        }));
+        for (const id of ["#recognised", "#seen"]) $(id).hidden = false;
+        $("#seen").hidden = !facts.seen;
+        $("#unread").textContent = "";
+        showUse();
+        paint();
+        showPixel();
+    }
+
+    async function look(said) {
+        const mine = (shown = said), answer = await ask(said, "says").answer;
+        if (mine !== shown) return;
+        if (answer.status !== 0) {
+            facts = null;
+            $("#unread").textContent = `${file.name}: ${fault(answer)}`;
+            for (const id of ["#recognised", "#seen"]) $(id).hidden = true;
+            return;
+        }
+        const first = facts === null;
+        facts = JSON.parse(answer.out);
+        plain ??= facts; // of no words: what the samples show by themselves
+        if (first) at = [facts.width >> 1, facts.height >> 1];
+        if (first && words().join("\0") !== said.join("\0")) return look(words()); // now that it is known to be window depth
+        showFacts();
+    }
+
+    function follow() {
+        if (file === null) return;
+        const said = words();
+        if (facts === null || said.join("\0") !== shown.join("\0")) look(said);
+        else showUse();
+    }
+
+    function open(chosen) {
+        [file, facts, plain] = [chosen, null, null];
+        files++;
+        holds.value = "";
+        $("#samples").hidden = false;
+        $("#image").scrollIntoView({ block: "nearest" });
+        look(words());
+    }
+
+    holds.addEventListener("change", () => {
+        facts = null;
+        follow();
+    });
+    $("#errors").addEventListener("change", () => facts !== null && paint());
     canvas.addEventListener("pointermove", ({ offsetX, offsetY }) =>
-        move(Math.floor((offsetX * image.width) / canvas.clientWidth), Math.floor((offsetY * image.height) / canvas.clientHeight)));
+        move(Math.floor((offsetX * facts.width) / canvas.clientWidth), Math.floor((offsetY * facts.height) / canvas.clientHeight)));
     canvas.addEventListener("keydown", (event) => {
         const [x, y] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, 1], ArrowUp: [0, -1] }[event.key] ?? [];
         if (x === undefined) return;
@@ -75,5 +146,5 @@ export function createImagePanel({ $, aside, setup, line, take, narrow, otherWay
             event.preventDefault();
             if (when === "drop") open(event.dataTransfer.files[0]);
         });
-    return { follow: () => image !== null && showPixel() };
+    return { follow };
 }

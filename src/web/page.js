@@ -11,9 +11,10 @@ import { createImagePanel } from "./image_panel.js";
 import { axesNow, crossTo, DARK, narrow, observeWidths } from "./outputs.js";
 import { createPicture } from "./picture.js";
 import { heard, later, onScreen, release, showKnown, showPicture, showRun, want } from "./schedule.js";
+import { unpack } from "./unpack.js";
 import {
     $, askedOf, commandOf, fields, FIGURES, link, make, mapOf, page, pictured, pictureLines, refuse, SCHEMES, SECOND, set, setLink,
-    setTheme, shown, state, takes, unitOf, VERBS,
+    setTheme, shown, state, takes, unitOf, VERBS, words,
 } from "./state.js";
 
 function listen() {
@@ -126,8 +127,7 @@ function measurer() {
 
 async function begin() {
     const packed = Uint8Array.from(atob($("#module").textContent), (c) => c.charCodeAt(0));
-    const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-    page.engine = await load(new Uint8Array(await new Response(stream).arrayBuffer()));
+    page.engine = await load(unpack(packed));
     page.engine.measure = measurer();
     page.engine.gpu = gpu;
     page.aside = createAside(page.engine.module, {
@@ -161,7 +161,10 @@ async function begin() {
         judged: (text) => ["judge", ...commandOf("judge", state.setups[0]).slice(1), "--", text],
         take,
     });
-    page.imagePanel = createImagePanel({ $, aside: page.aside, setup: () => state.setups[0], take, narrow, otherWay: OTHER_WAY, line: (depth) => askedOf("table", state.setups[0], { depth }) });
+    page.imagePanel = createImagePanel({
+        $, make, aside: page.aside, setup: () => state.setups[0], take, otherWay: OTHER_WAY, packings: names("packings"),
+        camera: (all) => words([...state.setups[0]].filter(([name]) => all.includes(name))),
+    });
     showPicture();
     window.depthprec = { engine: page.engine, state: () => shown().map(join), set: setLink };
 }
