@@ -318,7 +318,7 @@ bool camera_assumed(const camera_said *c, const dp_spec *spec, dp_spec *out) {
     camera_said assumed = *c;
     camera_fault fault = {.key = NULL};
     dp_triangles *t = &assumed.triangles;
-    if (spec->triangles.width > 0 || spec->ortho || dp_mapping_get(spec->mapping)->curve != DP_CURVE_PERSPECTIVE)
+    if (spec->triangles.width > 0 || dp_mapping_get(spec->mapping)->curve != DP_CURVE_PERSPECTIVE)
         return false;
     *t = dp_triangles_default();
     take_canvas(c, t);
