@@ -257,7 +257,7 @@ web:
 	@$(MAKE) $(PARALLEL) $(B)/web/core.wasm $(B)/depthprec.html
 
 # Rooms that the page lacks but for these files and the options of their commands; and files of others that it lacks.
-WEB_LESS := code method model scene shader shadow system texture
+WEB_LESS := code convert method model scene shader shadow system texture
 WEB_FROM := code/language method/choose method/estimate method/families method/interval method/limit method/method \
     method/truth method/ways method/cmd_methods/methods shader/camera shader/constants shader/decode shader/oblique shader/packing \
     shader/sample_rounding texture/device texture/metric texture/moved texture/recognise texture/sensor texture/sensor_buffer \

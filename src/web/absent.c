@@ -8,6 +8,7 @@
 #include "camera/profile.h"
 #include "cli/link.h"
 #include "cli/words.h"
+#include "convert/convert.h"
 #include "draw/pixels.h"
 #include "judge/cmd_judge/request.h"
 #include "judge/pairs.h"
@@ -46,6 +47,7 @@ static const option_row no_rows[] = {{.name = NULL}};
 #define ABSENT_OPTIONS(of) const option_table of##_options = {.rows = no_rows};
 
 ABSENT_OPTIONS(code)
+ABSENT_OPTIONS(convert)
 ABSENT_OPTIONS(scene)
 ABSENT_OPTIONS(scene_eye)
 ABSENT_OPTIONS(shadow)
@@ -55,6 +57,7 @@ const option_use scene_model[] = {END}, shadow_cascade_uses[] = {END}, shadow_ma
 ABSENT_COMMAND(check)
 ABSENT_COMMAND(code)
 ABSENT(cmd_completions)
+ABSENT_COMMAND(convert)
 ABSENT_COMMAND(methods)
 ABSENT_COMMAND(scene)
 ABSENT_COMMAND(shadow)
@@ -92,6 +95,7 @@ ABSENT_FIGURE(normals_build)
 ABSENT_FIGURE(pareto_build)
 ABSENT_FIGURE(needs_build)
 ABSENT_FIGURE(shadow_build)
+ABSENT_FIGURE(shadow_distance_build)
 ABSENT_FIGURE(stability_build)
 ABSENT_FIGURE(world_build)
 
@@ -112,6 +116,8 @@ ABSENT_TABLE(normal)
 ABSENT_TABLE(pack)
 
 ABSENT_TABLE(position)
+ABSENT_TABLE(convert_read)
+ABSENT_TABLE(convert_write)
 ABSENT_TABLE(shadow_engine)
 ABSENT_TABLE(shadow_filter)
 ABSENT_TABLE(word)
@@ -162,6 +168,12 @@ int shadow_maps_make(const shadow_request *o, const dp_format *format, dp_mappin
     (void)mapping;
     (void)out;
     return absent(o->line);
+}
+
+const bias_api *shadow_asked_api(const shadow_request *o, size_t index) {
+    (void)o;
+    (void)index;
+    return NULL;
 }
 
 void need_release(need_file *file) {
