@@ -201,6 +201,10 @@ check "33. not safe: most vertices differ, by more than a code" agrees ' separat
 check "33. a copy of D24 read back by 2^24" answers 0 'depthprec convert d24 d32f d24 --write cut:2^24' 'EQUAL     fails'
 # c + c/(2^24 - 1), in floats 2^-24 apart from 2^23 on: each of that half is rounded up.
 check "33. half of its codes" agrees 'changed' '2 ^ 23 - 0.5' '2 ^ 23 + 0.5'
+check "33. layers of a map" answers 0 'depthprec solve --preset maplibre-globe:height=800 --separation 100m' 'from zoom'
+# A pixel is 40030230/(512 2^zoom) m, near half of one, the middle 1200 away: a step of D24 there is 1200^2/(0.5 2^24) of one.
+check "33. the lattice, and at most 4 times as much" agrees 'from zoom' 'log(width(1200, 0.5, 0, d24) * 40030230 / 51200) / log(2)' \
+    'log(width(1200, 0.5, 0, d24) * 40030230 / 51200) / log(2) + 2'
 check "34. a unit in Unity" answers 0 'depthprec bias --preset unity --units 1 --at 10m' 'brings a layer nearer'
 # Window depth 0.0297 is in [2^-6, 2^-5): r is 2^-29, and a depth of z^2/n wide.
 check "34. by the formula" agrees '9.999999379' '-1.001 * width(10, 0.3, 1000, 2 ^ -29)' '-0.999 * width(10, 0.3, 1000, 2 ^ -29)'

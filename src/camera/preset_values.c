@@ -93,8 +93,7 @@ bool preset_read(const char *text, const preset **row, preset_values *values, ch
     if (text[name] == '\0')
         return true;
     if ((*row)->function == NULL) {
-        append(error, PRESET_ERROR_SIZE, "must be %s alone, whose planes do not hang on numbers, got '%s'",
-               (*row)->name, text);
+        append(error, PRESET_ERROR_SIZE, "must be %s alone, whose planes are fixed, got '%s'", (*row)->name, text);
         return false;
     }
     for (char *at = parts + 1, *next; at != NULL; at = next) {
