@@ -102,7 +102,7 @@ const char *normals_draw(const figure_request *request, normals_error *error, ch
         chart_panel *panel = figure_panel(request, out, y);
         snprintf(panel->title, sizeof panel->title, "%s%s%s%s", alone || !plane ? "" : request->names[i],
                  alone || !plane ? "" : ": ", surfaces[plane ? PLANE : SPHERE],
-                 alone || plane ? "" : ", the worst of all");
+                 alone || plane ? "" : " (worst of all)");
         for (size_t method = 0; method < (plane ? BOUND + 1 : BOUND); method++)
             add_curve(request, &request->setups[plane ? i : 0], plane ? 1 : request->count, error, out, panel,
                       plane ? PLANE : SPHERE, method);

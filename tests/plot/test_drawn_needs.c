@@ -262,7 +262,7 @@ static bool true_normal(const void *context, double from, double to, double *lo,
 static void check_heading(const drawn_panel *p, const char *name, bool outline) {
     char heading[80];
     snprintf(heading, sizeof heading, "%s%s", outline ? "" : name,
-             outline ? "outline of a sphere, the worst of all" : ": plane at 60\u00b0");
+             outline ? "outline of a sphere (worst of all)" : ": plane at 60\u00b0");
     assert_string_equal(p->heading, heading);
 }
 
