@@ -3,7 +3,7 @@
 # Completes a manual page with what the program says of itself:  fill.sh PROGRAM SOURCE >PAGE
 # In the source a line  .\" head COMMAND  stands for its title, NAME and SYNOPSIS,  .\" options COMMAND  for its options as
 # `help COMMAND` has them, and  .\" list WHAT  for the names, notes and other spellings that `list WHAT` has.  .\" list  stands for the
-# names of the lists, and  .\" margin  before examples makes them as wide as a terminal.
+# names of the lists,  .\" questions  for what people ask, and  .\" margin  before examples makes them as wide as a terminal.
 set -eu
 
 said=$(mktemp)
@@ -75,6 +75,25 @@ list() {
         END { print ".El" }'
 }
 
+# A question begins its line, commands are two blanks off and go on four blanks off.
+questions() {
+    awk "$words"'
+        function show() { if (asked != "") text(asked); asked = "" }
+        BEGIN { print ".Bl -enum" }
+        /^$/ { next }
+        /^[^ ]/ { if (literal) print ".Ed"; literal = 0; print ".It"; asked = $0; next }
+        asked != "" && !/^  depthprec / { sub(/^ */, ""); asked = asked " " $0; next }
+        {
+            show()
+            if (!literal++) print ".Bd -literal"
+            sub(/^  depthprec /, "depthprec ")
+            gsub(/\\/, "\\e")
+            gsub(/'"'"'/, "\\(aq")
+            print
+        }
+        END { print ".Ed\n.El" }'
+}
+
 while IFS= read -r line; do
     case $line in
     '.\" head '* | '.\" options '*)
@@ -90,6 +109,10 @@ while IFS= read -r line; do
     '.\" list '*)
         "$1" list "${line##* }" >"$said"
         list <"$said"
+        ;;
+    '.\" questions')
+        "$1" list questions >"$said"
+        questions <"$said"
         ;;
     '.\" margin')
         # Examples begin in the first column, so that they fit 80. groff has no negative offsets: there the whole

@@ -23,9 +23,9 @@ END
 
 : >"$scratch/answered"
 
-# The commands of the page, those that go on in the next line put together.
-sed -e 's/\\(aq/'"'"'/g' -e ':more' -e '/\\e$/{' -e 'N' -e 's/ *\\e\n */ /' -e 'b more' -e '}' \
-    man/depthprec-questions.7 >"$scratch/commands"
+# The commands of `help questions`, of which the page is made; those that go on in the next line put together.
+depthprec help questions >"$scratch/questions"
+sed -e ':more' -e '/ \\$/{' -e 'N' -e 's/ *\\\n */ /' -e 'b more' -e '}' -e 's/^  //' "$scratch/questions" >"$scratch/commands"
 
 answers() { # answers STATUS COMMAND WORDS: the page has the command, which exits so and prints a line with these words
     grep -qxF -e "$2" "$scratch/commands" || { echo "not in depthprec-questions.7: $2" && return 1; }
@@ -190,7 +190,7 @@ check "29. a few steps of binary32 at 5 km" agrees ' 10 ' '2 ^ -11' '16 * 2 ^ -1
 check "30. packed into colours" answers 0 'depthprec texture rgb.png --packing rgb24 -m d3d --pixel 3,3' 'eye depth 10.0000024'
 check "30. a plane 10 away, within its step" agrees 'eye depth' '10 - width(10, 0.1, 1000, d24)' '10 + width(10, 0.1, 1000, d24)'
 check "31. 2 mm on phones" answers 0 \
-    'depthprec solve --for distance --preset godot-mobile --separation 2mm' 'a separation of 2 mm is guaranteed'
+    'depthprec solve --for distance --preset godot-mobile --separation 2mm' 'a separation of 2 mm'
 check "31. within the lattice" agrees 'up to z =' '0.9 * sqrt(0.002 / width(1, 0.05, 4000, d24))' \
     'sqrt(0.002 / width(1, 0.05, 4000, d24))'
 check "32. names of D24" answers 0 'depthprec list D24_UNORM_S8_UINT' 'DEPTH24_STENCIL8'
@@ -209,9 +209,34 @@ check "34. a unit in Unity" answers 0 'depthprec bias --preset unity --units 1 -
 # Window depth 0.0297 is in [2^-6, 2^-5): r is 2^-29, and a depth of z^2/n wide.
 check "34. by the formula" agrees '9.999999379' '-1.001 * width(10, 0.3, 1000, 2 ^ -29)' '-0.999 * width(10, 0.3, 1000, 2 ^ -29)'
 
+# near = e/(c + 1) and far = e/(c - 1) of the third row, whose entries may be half of their last digit away.
+check "35. a camera from its matrix" answers 0 \
+    "depthprec table --matrix '1,0,0,0,0,1.8,0,0,0,0,-1.00020,-1,0,0,-0.200020,0' -F d24 -m gl --at 10" 'unorm24 gl, near 0.1'
+check "35. what far may be, at least" agrees 'to 0.1000005, far' 0.2000195/0.000205-0.01 0.2000195/0.000205
+check "35. its code at 10" agrees ' 10 ' '(1 - 0.1 / 10) / (1 - 0.1 / 1000.1) * (2 ^ 24 - 1) - 0.6' \
+    '(1 - 0.1 / 10) / (1 - 0.1 / 1000.1) * (2 ^ 24 - 1) + 0.6'
+# Its pixels are 2.1/2064 wide, which is more than high; the wider half reaches to 1.2.
+check "36. the eye of a headset" answers 0 \
+    'depthprec table --matrix=-1.2,0.9,1.1,-1 -n 0.1 -f inf -F fp32 -m reversed --viewport 2064x2208 --at 5' 'holds the one of --matrix'
+check "36. the view that holds it" agrees 'viewport' '2 * 1.2 / (2.1 / 2064)' '2 * 1.2 / (2.1 / 2064) + 1'
+check "36. its angle" agrees 'fov' '114.5915 * atan2(1.1, 1)' '114.5915 * atan2(1.1 + 2.1 / 2064, 1) + 0.01'
+check "37. codes between two depths" answers 0 'depthprec table -F d24 -m d3d --range 1:7 --at 7' 'codes'
+check "37. by the formula" agrees 'codes' '(1 - 1 / 7) / width(1, 0.1, 1000, d24) - 1' '(1 - 1 / 7) / width(1, 0.1, 1000, d24) + 2'
+check "38. the first codes" answers 0 'depthprec table -F d24 -m d3d --code 0:3' '0.10000001'
+check "38. a step each: window depth of the last" agrees '0.1000000149 5.96e-09' 2.9/16777215 3.1/16777215
+check "39. a stereo camera without a file" answers 0 'depthprec table --lattice stereo:575,0.075,0.125 --at 4m' 'step'
+# 1/z in steps of 0.125/(575 0.075): the next level behind 4 m.
+check "39. by the formula" agrees ' 4 ' '1 / (1 / 4 - 0.125 / 43.125) - 4 - 1e-4' '1 / (1 / 4 - 0.125 / 43.125) - 4 + 5e-3'
+check "40. an offset in OpenGL's own depth" answers 0 'depthprec bias --api gl --separation 1cm --at 50m' 'glPolygonOffset'
+check "40. so many steps of 2^-24, and one for rounding" agrees 'glPolygonOffset.0,' \
+    '-1 - 0.01 / width(50, 0.1, 1000, 2 ^ -24) - 1' '-0.01 / width(50, 0.1, 1000, 2 ^ -24)'
+check "41. why frusta" answers 0 'depthprec solve --for frusta -n 0.1 -f 100m -F d16 -m d3d --separation 1m' 'the lattice alone forbids'
+check "41. at least the last step before far" agrees 'it resolves' '100 - eye(1 - 1 / 65535, 0.1, 100)' \
+    '1.6 * (100 - eye(1 - 1 / 65535, 0.1, 100))'
+
 unanswered() { # commands of the page that no line above has found right
     grep '^depthprec ' "$scratch/commands" | grep -vxF -f "$scratch/answered"
-    [ "$(grep -cx '\.It' man/depthprec-questions.7)" -ge 30 ] || echo "fewer than 30 questions"
+    [ "$(grep -c '^[^ ]' "$scratch/questions")" -ge 30 ] || echo "fewer than 30 questions"
 }
 check "each command of the page is answered, of at least 30 questions" empty unanswered
 

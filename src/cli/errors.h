@@ -9,6 +9,10 @@
 /** Prints "depthprec: " and the rest, one line, on stderr. @return EXIT_USAGE */
 int usage_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
+/** Writes the last of them as JSON on stdout: {"schema", "command", "version", "error": {"option", "text", "status"}}.
+ */
+void error_write_json(const char *command, int status);
+
 /** The same, with "--OPTION: " before the rest unless `option` is null. */
 int named_error(const char *option, const char *format, va_list arguments) __attribute__((format(printf, 2, 0)));
 

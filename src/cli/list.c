@@ -372,9 +372,10 @@ bool list_method(size_t index, list_item *item) {
 
 static void tell_word(const void *row, list_item *item) {
     const word_row *w = row;
-    snprintf(item->bound, sizeof item->bound, "depthprec %s", w->commands);
-    for (char *at; (at = strchr(item->bound, '\n')) != NULL;)
-        *at = ';';
+    item->bound[0] = '\0';
+    for (const char *at = w->commands; *at != '\0'; at += strcspn(at, "\n"), at += *at == '\n')
+        append(item->bound, sizeof item->bound, "%sdepthprec %.*s", at > w->commands ? "; " : "",
+               (int)strcspn(at, "\n"), at);
 }
 
 /* The topics that can be listed. */
@@ -487,6 +488,10 @@ static const topic topics[] = {
      "methods by family: what each claims, for which set-up and far/near",
      {.get = list_method},
      .bound = "bound"},
+    {"questions",
+     "questions that people ask, and the command that answers each",
+     {.rows = &question_table, .tell = tell_word},
+     .bound = "command"},
     {"words",
      "words of articles, shaders and these pages: what each means, and the command that answers",
      {.rows = &word_table, .tell = tell_word},

@@ -42,6 +42,14 @@ static int refuse_overwriting(const asked_line *line) {
     return EXIT_FINE;
 }
 
+/* Whoever asked for JSON gets what is wrong as JSON, too, where nothing is written yet. */
+static void tell_fault(const asked_line *line, char **argv, int status) {
+    while (*argv != NULL && strcmp(*argv, "--json") != 0 && strcmp(*argv, "--") != 0)
+        argv++;
+    if (status >= EXIT_USAGE && *argv != NULL && strcmp(*argv, "--json") == 0 && !output_begun())
+        error_write_json(line->command != NULL ? line->command->name : "table", status);
+}
+
 int main(int argc, char **argv) {
     asked_line line;
     output_reserve_streams();
@@ -51,6 +59,7 @@ int main(int argc, char **argv) {
         status = refuse_overwriting(&line);
     if (status == EXIT_FINE)
         status = run(&line);
+    tell_fault(&line, argv, status);
     options_release(&line);
     return status;
 }

@@ -12,4 +12,7 @@ typedef struct word_row {
 
 NAMED_ROWS(word_row, word);
 
+/** Questions that people ask, by their name, and the commands that answer. */
+NAMED_ROWS(word_row, question);
+
 #endif

@@ -501,6 +501,24 @@ static bool find_function(maker *m, const char *function) {
     return false;
 }
 
+const char *written_only(const char *file, bool hlsl, char name[WRITTEN_NAME_SIZE], char error[WRITTEN_TEXT_SIZE]) {
+    listing s;
+    size_t count = 0;
+    const bool good = listing_read(file, hlsl, &s);
+    error[0] = '\0';
+    append(error, WRITTEN_TEXT_SIZE, "name its function, FILE:FUNCTION; it has");
+    for (size_t k = 0; good && k < s.count; k++)
+        if (s.items[k].kind == ITEM_FUNCTION) {
+            const int length = (int)s.items[k].name.length;
+            append(error, WRITTEN_TEXT_SIZE, "%s %.*s", count++ > 0 ? "," : "", length, s.items[k].name.at);
+            snprintf(name, WRITTEN_NAME_SIZE, "%.*s", length, s.items[k].name.at);
+        }
+    listing_free(&s);
+    if (count == 0)
+        append(error, WRITTEN_TEXT_SIZE, " none");
+    return count == 1 ? name : NULL;
+}
+
 bool written_make(const char *file, const char *function, bool hlsl, const dp_setup *setup, const char *const *defines,
                   size_t define_count, unsigned turns, written *out, char error[WRITTEN_TEXT_SIZE]) {
     maker m = {.setup = setup, .defines = defines, .define_count = define_count, .out = out, .error = error};

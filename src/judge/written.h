@@ -13,7 +13,7 @@
 
 #include "depthprec/setup.h"
 
-enum { WRITTEN_CONSTANTS = 256, WRITTEN_TEXT_SIZE = 512, WRITTEN_CALLS = 16 };
+enum { WRITTEN_CONSTANTS = 256, WRITTEN_TEXT_SIZE = 512, WRITTEN_CALLS = 16, WRITTEN_NAME_SIZE = 128 };
 
 typedef struct written {
     char *text; /**< malloc'ed */
@@ -27,6 +27,9 @@ typedef struct written {
 
 /** Whether NAME=VALUE names what a shader can be given: a word or a number. */
 bool written_define_known(const char *define);
+
+/** The only function that a file has. @return name, or null with a sentence in `error` that lists them */
+const char *written_only(const char *file, bool hlsl, char name[WRITTEN_NAME_SIZE], char error[WRITTEN_TEXT_SIZE]);
 
 /**
  * @param file     the text of the file

@@ -7,7 +7,14 @@
 #include <string.h>
 #include <unistd.h>
 
+static bool stdout_begun; /* by this process */
+
+bool output_begun(void) {
+    return stdout_begun;
+}
+
 static void write_all(output *out, const char *bytes, size_t size) {
+    stdout_begun = stdout_begun || (size > 0 && out->fd == STDOUT_FILENO);
     while (size > 0 && out->error == 0) {
         ssize_t written = write(out->fd, bytes, size);
         if (written < 0 && errno != EINTR)

@@ -98,6 +98,9 @@ bool output_same_file(const char *a, const char *b);
  */
 void output_reserve_streams(void);
 
+/** Whether this process has written to stdout. */
+bool output_begun(void);
+
 /** Writes what waits now, and goes on. */
 void output_flush(output *out);
 

@@ -116,7 +116,7 @@ static void put_words(page *p, int column, int left, const char *text) {
 
 void page_command(page *p, const char *command) {
     output_format(p->out, "%*s", INDENT, "");
-    put_joined(p, INDENT, 2 * INDENT, command, p->fitted ? " \\" : "");
+    put_joined(p, INDENT, 2 * INDENT, command, INDENT + (int)strlen(command) > p->width ? " \\" : "");
     output_char(p->out, '\n');
 }
 

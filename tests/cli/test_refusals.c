@@ -396,7 +396,16 @@ static void check_refusal(tally *t, const char *arguments, const char *option, i
         TALLY(t, (strncmp(p.errors, "depthprec: --", 13) == 0) == (*option != '\0'), "%s: %s", arguments, p.errors);
         TALLY(t, p.errors[0] != '\0' && strchr(p.errors, '\n') == p.errors + strlen(p.errors) - 1, "%s: not one line",
               arguments);
-        TALLY(t, p.out[0] == '\0', "%s: printed something", arguments);
+        if (p.out[0] != '\0' && strstr(arguments, "--json") != NULL) { /* the same as JSON */
+            json_t *root = json_of(p.out);
+            const char *at_fault = text_at(root, "error.option");
+            TALLY(t, strcmp(at_fault != NULL ? at_fault : "", option) == 0, "%s: %s", arguments, p.out);
+            TALLY(t, strstr(p.errors, text_at(root, "error.text")) != NULL, "%s: %s", arguments, p.out);
+            TALLY(t, number_at(root, "error.status") == status, "%s: %s", arguments, p.out);
+            json_decref(root);
+        } else {
+            TALLY(t, p.out[0] == '\0', "%s: printed something", arguments);
+        }
     } else {
         TALLY(t, p.out[0] != '\0', "%s: printed nothing", arguments);
     }

@@ -29,6 +29,8 @@ static void want_worst(values *v, const dp_setup *setup, double lo, double hi) {
     }
     values_under(v, "%.60sworst.", v->prefix);
     want(v, "lo=%f hi=%f error=%f error_z=%f error_code=%u", lo, hi, w.error, w.error_z, w.error_code);
+    const uint32_t ends[2] = {dp_code(setup, lo), dp_code(setup, hi)};
+    want(v, "codes=%f", 1.0 + (ends[0] < ends[1] ? ends[1] - ends[0] : ends[0] - ends[1]));
     want(v, "interval=%f interval_lo=%f interval_hi=%f", w.interval, w.interval_lo, w.interval_hi);
     want(v, "interval_code=%u blind_from=%f", w.interval_code, w.blind_from);
 }

@@ -55,8 +55,8 @@ static void check_scheme(const json_t *line, const world_asked *a, size_t k, dou
     assert_string_equal(text_at(line, "scheme"), schemes[k]);
     assert_string_equal(text_at(line, "verdict"), safe && still ? "holds"
                                                   : safe        ? "jitters"
-                                                  : still       ? "fights"
-                                                                : "fights, jitters");
+                                                  : still       ? "z-fights"
+                                                                : "z-fights, jitters");
 }
 
 /* The third gap fights where it stands still, the last jitters. */

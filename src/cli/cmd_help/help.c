@@ -50,7 +50,10 @@ static void list_commands(output *out) {
         page_note(&p, label, "%s%s", v->summary, i == 0 ? " (default)" : "");
     }
     output_char(out, '\n');
-    page_text(&p, "'depthprec help COMMAND' lists its options. Lengths may have a unit: 10cm.");
+    page_text(&p,
+              "'depthprec help COMMAND' lists its options, 'help questions' what people ask, 'help WORD' says what a "
+              "word means. Lengths may have a unit: 10cm.");
+    page_text(&p, "A bug: tell who gave you depthprec the command, what it printed, and 'depthprec version'.");
     page_text(&p, "Exit: 0 success, 1 a check failed, 2 bad usage or input, 3 cannot read or write.");
 }
 

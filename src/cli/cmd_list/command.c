@@ -5,6 +5,7 @@
  */
 #include "cli/cmd_list/request.h"
 #include "cli/list.h"
+#include "cli/words.h"
 #include "method/cmd_methods/methods.h"
 #include "report/report.h"
 
@@ -48,7 +49,18 @@ static void say_topics(page *p, void *of) {
 static void say_item(page *p, void *of) {
     const listing *l = of;
     const list_item *item = &l->item;
+    char command[LIST_TEXT_SIZE];
     page_title(p, "%s%s%s", l->word != NULL ? l->topic->name : "", l->word != NULL ? ": " : "", item->name);
+    if (l->topic->of.rows == &question_table) {
+        snprintf(command, sizeof command, "%s", item->bound);
+        for (char *at = command, *end; at != NULL; at = end != NULL ? end + 2 : NULL) {
+            end = strstr(at, "; depthprec ");
+            if (end != NULL)
+                *end = '\0';
+            page_command(p, at);
+        }
+        return;
+    }
     page_wrapped(p, "", item->note);
     page_wrapped(p, l->topic->shown != NULL ? l->topic->shown : l->topic->bound, item->bound);
     page_wrapped(p, "chosen", l->chosen);

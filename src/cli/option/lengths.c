@@ -144,10 +144,19 @@ int option_read_numbers(const char *text, int most, const double limits[][2], do
 /* ---- Depths ------------------------------------------------------------------------------------------------------ */
 
 static int wrong_form(const option_row *row, const char *text) {
-    return option_refuse(row, "must be Z[,Z...] or LO:HI:log|lin:COUNT, got '%s'", text);
+    return option_refuse(row, "must be %s, got '%s'",
+                         row->parse == parse_depths ? "Z[,Z...] or LO:HI:log|lin:COUNT" : row->argument, text);
 }
 
-/* LO:HI:log|lin:COUNT. */
+/* A number of LO:HI: a length, or one within the row's limits, of codes a whole one. */
+static bool read_end(length_reader *seen, const option_row *row, const char *text, size_t length, double *out) {
+    if (seen != NULL)
+        return length_read(seen, text, length, NUMBER_FINITE, out);
+    return number_parse_part(text, length, NUMBER_FINITE, out) && *out >= row->least && *out <= row->most &&
+           (row->parse != parse_codes || *out == floor(*out));
+}
+
+/* LO:HI:log|lin:COUNT; of codes LO:HI are all of them. */
 static int parse_spaced(length_reader *seen, const option_row *row, const char *text, depths *out) {
     static const char *const ends[] = {"LO", "HI"};
     const char *part = text;
@@ -155,11 +164,19 @@ static int parse_spaced(length_reader *seen, const option_row *row, const char *
     uint64_t count;
     double z[2];
     for (int i = 0; i < 2; i++, part += length + 1, length = strcspn(part, ":")) {
-        if (part[length] == '\0')
+        const bool alone = part[length] == '\0' && i == 1 && row->parse == parse_codes;
+        if (part[length] == '\0' && !alone)
             return wrong_form(row, text);
-        if (!length_read(seen, part, length, NUMBER_FINITE, &z[i]))
-            return option_refuse(row, "%s must be a number, got '%.*s' in '%s'%s", ends[i], (int)length, part, text,
-                                 length_hint(part, length));
+        if (!read_end(seen, row, part, length, &z[i]))
+            return seen == NULL ? wrong_form(row, text)
+                                : option_refuse(row, "%s must be a number, got '%.*s' in '%s'%s", ends[i], (int)length,
+                                                part, text, length_hint(part, length));
+        if (alone && z[0] < z[1] && z[1] - z[0] < DEPTHS_MAX) {
+            *out = (depths){.kind = DEPTHS_LIN, .lo = z[0], .hi = z[1], .count = (size_t)(z[1] - z[0]) + 1};
+            return EXIT_FINE;
+        }
+        if (alone)
+            return option_refuse(row, "LO:HI must rise, by less than %d codes, got '%s'", DEPTHS_MAX, text);
     }
     const bool log = length == 3 && memcmp(part, "log", 3) == 0;
     if (part[length] == '\0')
@@ -171,6 +188,8 @@ static int parse_spaced(length_reader *seen, const option_row *row, const char *
         return option_refuse(row, "COUNT must be a whole number from 2 to %d, got '%s'", DEPTHS_MAX, part);
     if (!(z[0] < z[1]))
         return option_refuse(row, "LO must be less than HI, got '%s'", text);
+    if (log && seen == NULL && !(z[0] > 0))
+        return option_refuse(row, "log spacing needs LO greater than 0, got '%s'", text);
     *out = (depths){.kind = log ? DEPTHS_LOG : DEPTHS_LIN, .lo = z[0], .hi = z[1], .count = count};
     return EXIT_FINE;
 }
@@ -214,7 +233,9 @@ int parse_list(asked_line *line, const option_row *row, const char *value, void 
     depths *out = option_field(row, group);
     snprintf(said, sizeof said, "%s, %snumbers from %s", row->argument, row->parse != parse_list ? "whole " : "",
              option_limits(row, limits));
-    return parse_listed(line, NULL, row, value, said, out);
+    return strchr(value, ':') != NULL && strchr(row->argument, ':') != NULL
+               ? parse_spaced(NULL, row, value, out)
+               : parse_listed(line, NULL, row, value, said, out);
 }
 
 int parse_codes(asked_line *line, const option_row *row, const char *value, void *group) {

@@ -300,6 +300,9 @@ int options_parse(asked_line *line, int argc, char **argv) {
     *line = (asked_line){.argv = argv};
     if (argc < 1)
         return usage_error("no program name was given");
+    static char version[] = "--version";
+    if (argc > 1 && strcmp(argv[1], version + 2) == 0)
+        argv[1] = version; /* as people type it */
     know(&k);
     put_command_first(&k, argc, argv);
     const bool named = argc > 1 && argv[1][0] != '-';

@@ -92,11 +92,16 @@ enum { OTHERS_NAMED = 6 }; /* more parts are no help */
 static int refuse_part(const option_row *row, const command_row *v, const command_part *now) {
     const char *lead = v->part_of != NULL ? v->part_of : "";
     char names[OPTION_TEXT_SIZE] = "";
+    const char *last = "";
     command_part part;
     size_t others = 0;
     for (size_t i = 0; option_part_get(v, i, &part); i++)
-        if (option_used(v, part.bits, option_find(v, row->name)).row != NULL)
+        if (option_used(v, part.bits, option_find(v, row->name)).row != NULL &&
+            (others == 0 || strncmp(part.words, last, strlen(last)) != 0 ||
+             part.words[strlen(last)] != ' ')) { /* "to an effect ... that needs more" */
             append(names, sizeof names, "%s%s", others++ > 0 ? ", " : "", part.words);
+            last = part.words;
+        }
     if (others == 0)
         return EXIT_FINE;
     if (others > OTHERS_NAMED)

@@ -106,19 +106,25 @@ int shader_open(const judge_request *o, const dp_setup *setup, const char *opera
     compute_run *run = calloc(1, sizeof *run);
     *out = (shader){.o = o, .run = run, .timed = calloc(1, sizeof *run), .given = true, .most = ALL_MOST};
     int status = run != NULL && out->timed != NULL && path != NULL ? EXIT_FINE : EXIT_IO;
-    if (status == EXIT_FINE && !spirv && (colon == NULL || colon == operand || colon[1] == '\0'))
-        status = usage_error("%s: must be FILE:FUNCTION, or FILE.spv, got '%s'",
+    if (colon != NULL && strpbrk(colon, "/\\.") != NULL)
+        colon = NULL;                           /* of a path, as C:\\depth.hlsl */
+    const bool whole = !spirv && colon == NULL; /* the only function of FILE */
+    if (status == EXIT_FINE && !spirv && !whole && (colon == operand || colon[1] == '\0'))
+        status = usage_error("%s: must be FILE, FILE:FUNCTION or FILE.spv, got '%s'",
                              o->judge.mine_count > 0 ? "--mine" : "judge", operand);
     if (status == EXIT_FINE && spirv && o->judge.define_count > 0)
         status = option_error("define", "is not for SPIR-V, which has its constants in it");
-    if (status == EXIT_FINE && !spirv)
+    if (status == EXIT_FINE && !spirv && !whole)
         path[colon - operand] = '\0';
     if (status == EXIT_FINE)
         status = read_file(path, &text, &run->size);
     if (status == EXIT_FINE && !spirv) {
         out->text = text;
-        out->function = colon + 1;
-        status = compile(out, setup, path, 0);
+        out->function = whole ? written_only(text, is_hlsl(path), out->own, error) : colon + 1;
+        if (out->function == NULL)
+            status = usage_error("judge: %s: %s", path, error);
+        else
+            status = compile(out, setup, path, 0);
         if (status == EXIT_FINE && timed)
             status = compile(out, setup, path, TURNS);
         text = NULL;

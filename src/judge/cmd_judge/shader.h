@@ -6,6 +6,7 @@
 #include "camera/cmd/setups.h"
 #include "judge/cmd_judge/request.h"
 #include "judge/judge.h"
+#include "judge/written.h"
 #include "probe/compute.h"
 
 enum { SHADER_TEXT_SIZE = 1024 };
@@ -23,6 +24,7 @@ typedef struct shader {
     uint64_t most;               /**< depths that it is run with, of a format that has more */
     uint64_t count;              /**< depths that it was run with */
     bool too_long;               /**< more take too long */
+    char own[WRITTEN_NAME_SIZE]; /**< the function, where FILE has one alone */
 } shader;
 
 /** Reads and compiles FILE:FUNCTION or FILE.spv, which must last. @return EXIT_FINE, or as a command does */

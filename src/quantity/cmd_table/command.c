@@ -51,7 +51,8 @@ typedef struct promise {
 
 typedef struct worst {
     dp_worst of;
-    int digits; /* that show where the interval ends */
+    double codes; /* that depths of the range have */
+    int digits;   /* that show where the interval ends */
 } worst;
 
 /* A separation, and the depths up to which it is guaranteed; NaN: not even at near, or nothing is at a slant. */
@@ -189,6 +190,7 @@ static void *next_setup(void *of, size_t i) {
     find_reach(t);
     t->worst_case = (worst){.digits = 0};
     dp_worst_over(setup, t->lo, t->hi, &t->worst_case.of);
+    t->worst_case.codes = fabs((double)dp_code(setup, t->hi) - (double)dp_code(setup, t->lo)) + 1.0;
     t->worst_case.digits = digits_to_see(t->worst_case.of.interval_lo, t->worst_case.of.interval);
     t->worst = isnan(t->worst_case.of.error) ? NULL : &t->worst_case;
     t->guarantee = guarantee_over(t, &t->each.full, &t->over_range);
@@ -291,6 +293,7 @@ static const column reach_columns[] = {{FIELD(reach, separation, "separation", "
 static const column worst_columns[] = {
     {FIELD(worst, of.lo, "lo", "scene")},
     {FIELD(worst, of.hi, "hi", "scene")},
+    {FIELD(worst, codes, "codes", "")},
     {FIELD(worst, of.error, "error", "scene"), .digits = DIGITS_FEW, .upward = true},
     {FIELD(worst, of.error_z, "error_z", "scene"), .digits = DIGITS_USUAL},
     {FIELD(worst, of.error_code, "error_code", "")},
@@ -350,13 +353,15 @@ enum {
     LOSES = 64,
     BELOW_SEPARATION = 128,
     TOLERANCE = 256,
-    EXACTLY = 512
+    EXACTLY = 512,
+    OF_RANGE = 1024
 };
 
 #define GUARANTEED "{worst_separation.bound} at z = {worst_separation.z}, "
 #define TOO_FAR    "{written.error} too far at z = {written.z} " IN_CLASS
 #define IN_CLASS   "in triangles from z/{written.class} to {written.class} z: "
 static const sentence words[] = {
+    NOTE("codes", "{worst.codes} from {worst.lo} to {worst.hi}", OF_RANGE),
     NOTE("worst error", "unbounded, code {worst.error_code}", NO_ERROR_BOUND),
     ELSE("{worst.error} at z = {worst.error_z}, code {worst.error_code}", 0),
     NOTE("worst interval", "unbounded, from {worst.interval_lo} on, code {worst.interval_code}", NO_INTERVAL_BOUND),
@@ -388,7 +393,8 @@ static unsigned conditions_of_words(const table *t) {
            (isfinite(t->each.full.spec.zfar) ? FAR_IS_FINITE : 0) | (t->each.full.shader ? IS_SHADER : 0) |
            (dp_is_computed(&t->each.full) ? IS_COMPUTED : 0) | (dp_format_is_rg(&t->setup.spec.format) ? IS_RG : 0) |
            (t->planes.loses ? LOSES : 0) | (t->written.class <= t->written.depth ? BELOW_SEPARATION : 0) |
-           (option_given(t->o->line, "tolerance") ? TOLERANCE : 0) | (t->interval.claim == 0 ? EXACTLY : 0);
+           (option_given(t->o->line, "tolerance") ? TOLERANCE : 0) | (t->interval.claim == 0 ? EXACTLY : 0) |
+           (option_given(t->o->line, "range") ? OF_RANGE : 0);
 }
 
 static void say_notes(page *p, void *item) {

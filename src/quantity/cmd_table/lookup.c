@@ -33,7 +33,8 @@ static void *next_row(void *of, size_t i) {
     double asked;
     if (!each_setup_depth(&l->each, i, &asked))
         return NULL;
-    const uint32_t code = l->by_code ? (uint32_t)asked : dp_format_encode(format, setup->spec.rounding, asked);
+    const uint32_t code =
+        l->by_code ? (uint32_t)floor(asked + 0.5) : dp_format_encode(format, setup->spec.rounding, asked);
     r->depth = l->by_code ? dp_format_value(format, code) : asked;
     r->cell = dp_cell_of(setup, code);
     r->z = l->by_code ? r->cell.stored : decode_exact(setup, DECODE_EYE, asked);

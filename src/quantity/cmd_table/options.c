@@ -9,11 +9,12 @@
 
 /* clang-format off */
 static const option_row table_rows[] = {
-    {"depth", 0, "D[,D...]",
+    {"depth", 0, "D[,D...]|LO:HI:log|lin:COUNT",
         "the inverse: the eye depth of each of these window depths, and its cell",
         SEVERAL(parse_list, looked_up, 0, 1)},
-    {"code", 0, "N[,N...]",
-        "the same for stored codes, decimal or 0x...; the code of a float is its bit pattern",
+    {"code", 0, "N[,N...]|LO:HI[:log|lin:COUNT]",
+        "the same for stored codes, LO:HI for all from LO to HI; decimal or 0x...; the code of a float is its bit "
+        "pattern",
         SEVERAL(parse_codes, looked_up, 0, 4294967295)},
     {"constants", 0, NULL,
         "instead: what shaders are given of the camera (_ZBufferParams, _ProjectionParams, UNITY_NEAR_CLIP_VALUE, "

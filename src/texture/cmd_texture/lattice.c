@@ -51,6 +51,7 @@ static const struct way {
     {"inverse-levels", ":N", 1, 1, GRAIN_INVERSE, make_levels},
     {"levels", ":N", 1, 1, GRAIN_EVEN, make_levels},
     {"binary16", "", 0, 0, GRAIN_HALF, make_alone},
+    {"fp16", "", 0, 0, GRAIN_HALF, make_alone},
     {"file", "", 0, 0, GRAIN_FINE, make_alone},
 };
 enum { WAYS = sizeof ways / sizeof ways[0] };

@@ -332,7 +332,7 @@ static const option_place places[] = {CAMERA_PLACES(texture_request),
                                       {.table = NULL}};
 
 static const command_part parts[] = {{"to an effect without FILE", TEXTURE_EFFECT},
-                                     {"to an effect of places without FILE", TEXTURE_PLACED},
+                                     {"to an effect without FILE that needs positions", TEXTURE_PLACED},
                                      {"with FILE or --synthetic", TEXTURE_IMAGE},
                                      {NULL, 0}};
 

@@ -65,7 +65,7 @@ static double reach_or_inf(world_loss *loss, const world_scheme *s, const world_
 }
 
 static void fill_line(world *w, const world_scheme *s) {
-    static const char *const verdicts[2][2] = {{"fights, jitters", "fights"}, {"jitters", "holds"}};
+    static const char *const verdicts[2][2] = {{"z-fights, jitters", "z-fights"}, {"jitters", "holds"}};
     line *l = &w->line;
     *l = (line){.name = s->row->name, .size = s->row->size != NULL ? s->size : (double)NAN};
     label_of(s, l->label);
@@ -177,15 +177,15 @@ static const column line_columns[] = {
     {FIELD(line, name, "scheme", "")},
     {FIELD(line, size, "size", "scene")},
     {TEXT_FIELD(line, label, "scheme", -14, 0)},
-    {FIELD(line, off, "view_z_error", "scene"), SHOWN("view z", 9, DIGITS), .upward = true, .brief = true,
+    {FIELD(line, off, "view_z_error", "scene"), SHOWN("z off", 9, DIGITS), .upward = true, .brief = true,
      .when = AT_DISTANCE},
-    {FIELD(line, gap, "safe_gap", "scene"), SHOWN("apart", 10, DIGITS), .upward = true, .brief = true,
+    {FIELD(line, gap, "safe_gap", "scene"), SHOWN("safe gap", 9, DIGITS), .upward = true, .brief = true,
      .when = AT_DISTANCE},
     {FIELD(line, jitter, "jitter", "pixels"), SHOWN("jitter", 8, DIGITS), .upward = true, .brief = true,
      .when = AT_DISTANCE},
     {FIELD(line, safe_to, "safe_to", "scene"), SHOWN("safe to", 9, DIGITS), .downward = true, .brief = true},
-    {FIELD(line, still_to, "still_to", "scene"), SHOWN("1 px from", 11, DIGITS), .downward = true, .brief = true},
-    {FIELD(line, verdict, "verdict", ""), SHOWN("  verdict", -17, 0), .when = AT_DISTANCE},
+    {FIELD(line, still_to, "still_to", "scene"), SHOWN("1 px from", 10, DIGITS), .downward = true, .brief = true},
+    {FIELD(line, verdict, "verdict", ""), SHOWN("  verdict", -19, 0), .when = AT_DISTANCE},
     {.kind = COLUMN_END}};
 
 static const column distance_columns[] = {{FIELD(world, distance, "distance", "scene"), .when = AT_DISTANCE},
