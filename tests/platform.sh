@@ -85,7 +85,7 @@ done <<END
 table $bent --at 447
 budget $bent --at 447
 bias $bent --api vulkan-float --triangle-class depth=2,pixels=14,slim=16 --at 447
-zfight $bent --range 100:1000
+zfight $bent --range 447:449
 solve --for distance $bent --separation 1
 scene tests/models/house.gltf $bent
 shadow --light-box 40x40x200 -F fp32
