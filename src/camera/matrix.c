@@ -144,9 +144,23 @@ static bool are_single(const entries *e) {
     return long_one;
 }
 
-/* The ends between which the number behind an entry lies. Few digits were not rounded, but typed. */
+/* The worth of an entry's last digit; 0: exact. Few digits were typed, not rounded. Where others have more, a fraction
+ * has lost the zeros at its end, as programs print it, and a whole number is one. */
+static double worth_of(const entries *e, size_t i) {
+    int most = 0;
+    for (size_t k = 0; k < MATRIX_ENTRIES; k++)
+        most = e->digits[k] > most ? e->digits[k] : most;
+    if (most < DIGITS_ROUNDED || (e->digits[i] < DIGITS_ROUNDED && !(e->last[i] < 1)))
+        return 0;
+    double worth = e->last[i];
+    for (int digits = e->digits[i]; digits < most && e->last[i] < 1; digits++)
+        worth /= 10;
+    return worth;
+}
+
+/* The ends between which the number behind an entry lies. */
 static void ends_of(const entries *e, size_t i, bool single, double *least, double *most) {
-    const double m = e->m[i], half = e->digits[i] >= DIGITS_ROUNDED ? 0.5 * e->last[i] : 0;
+    const double m = e->m[i], half = 0.5 * worth_of(e, i);
     const double own = half > 0 ? fmax(half, 0x1p-53 * fabs(m)) : 0;
     const float f = (float)m;
     *least = m - own;

@@ -61,8 +61,9 @@ static void check_planes(tally *t, const written *w, const json_t *setup, double
     const double near[2] = {end_at(setup, "near", "near_least"), end_at(setup, "near", "near_most")};
     const double far[2] = {end_at(setup, "far", "far_least"), end_at(setup, "far", "far_most")};
     const double slack = 1e-14; /* what this test itself rounds */
-    TALLY(t, near[0] <= w->znear * (1 + slack) && near[1] >= w->znear * (1 - slack), "near %.17g in %.17g to %.17g: %s",
-          w->znear, near[0], near[1], w->text);
+    const double apart = slack * (w->ortho ? fmax(fabs(w->znear), w->zfar - w->znear) : w->znear);
+    TALLY(t, near[0] <= w->znear + apart && near[1] >= w->znear - apart, "near %.17g in %.17g to %.17g: %s", w->znear,
+          near[0], near[1], w->text);
     TALLY(t,
           far[0] <= w->zfar * (1 + slack * w->zfar / w->znear) && far[1] >= w->zfar * (1 - slack * w->zfar / w->znear),
           "far %.17g in %.17g to %.17g: %s", w->zfar, far[0], far[1], w->text);

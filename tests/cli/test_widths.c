@@ -61,6 +61,8 @@ static const char *const lines[] = {
     "shadow --light-box 40x40x200 -F d16 --api gl",
     "shadow -f 300 --api all",
     "methods",
+    "convert unorm10 d32f unorm10 --write cut:2^10",
+    "convert unorm10 d32f unorm10 --code 1,2",
     "plot map -o nowhere/map.svg",
     "plot",
     "plot nothing",

@@ -237,15 +237,15 @@ static const column asked_columns[] = {{FIELD(outcome, write, "write", "")},
 static const column other_columns[] = {{FIELD(outcome, write, "write", ""), SHOWN("write", -16, 0)},
                                        {FIELD(outcome, found.changed, "changed", ""), SHOWN("changed", 11, 0)},
                                        {FIELD(outcome, first, "first", ""), SHOWN("first", 11, 0)},
-                                       {FIELD(outcome, becomes, "becomes", ""), SHOWN("becomes", 11, 0)},
-                                       {FIELD(outcome, found.beyond, "beyond", ""), SHOWN("beyond", 8, 0)},
+                                       {FIELD(outcome, becomes, "becomes", ""), SHOWN("becomes", 11, 0), .spare = 2},
+                                       {FIELD(outcome, found.beyond, "beyond", ""), SHOWN("beyond", 8, 0), .spare = 3},
                                        {.kind = COLUMN_END}};
 static const column code_columns[] = {{FIELD(one_code, code, "code", ""), SHOWN("code", 11, 0)},
-                                      {FIELD(one_code, number, "number", ""), SHOWN("is read as", 22, 0)},
-                                      {FIELD(one_code, through, "through", ""), SHOWN("through", 11, 0)},
+                                      {FIELD(one_code, number, "number", ""), SHOWN("is read as", 22, 0), .spare = 3},
+                                      {FIELD(one_code, through, "through", ""), SHOWN("through", 11, 0), .spare = 2},
                                       {FIELD(one_code, becomes, "becomes", ""), SHOWN("becomes", 11, 0)},
                                       {FIELD(one_code, beyond, "beyond", ""), .only = AS_JSON | AS_CSV},
-                                      {FIELD(one_code, changed, "changed", ""), SHOWN("changed", 9, 0)},
+                                      {FIELD(one_code, changed, "changed", ""), SHOWN("changed", 9, 0), .spare = 1},
                                       {.kind = COLUMN_END}};
 enum { WITH_ALL = 1, WITH_CODES = 2 };
 static const column columns[] = {
