@@ -330,7 +330,8 @@ TEST(test_refused) {
         {":textbook --define uFar=further", "--define: must be NAME=near"},
         {":textbook --define far", "--define: must be NAME=near"},
         {":textbook --pairs -", "judge needs FILE:FUNCTION, or --pairs FILE, or --pairs-for N"},
-        {"", "must be FILE:FUNCTION, or FILE.spv"},
+        {":", "judge: must be FILE, FILE:FUNCTION or FILE.spv"},
+        {"", "name its function, FILE:FUNCTION; it has cut, of_instance,"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         check_says(2, rows[i].said, "judge %s%s", path, rows[i].words);

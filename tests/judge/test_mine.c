@@ -285,7 +285,8 @@ TEST(test_refused) {
     check_says(2, "--device: needs --mine in the figure stability", "plot stability --csv --device 0");
     check_says(2, "--device: needs FAMILY", "methods --device 0");
     check_says(2, "--mine: does not apply to the figure error", "plot error --csv --mine %s:book", path);
-    check_says(2, "--mine: must be FILE:FUNCTION, or FILE.spv", "methods linearize --mine %s", path);
+    check_says(2, "--mine: must be FILE, FILE:FUNCTION or FILE.spv", "methods linearize --mine %s:", path);
+    check_says(2, "name its function, FILE:FUNCTION; it has complement, book,", "methods linearize --mine %s", path);
     check_says(2, "absent is no function of the file", "methods linearize --mine %s:absent", path);
     check_says(3, "No such file", "methods linearize --mine absent.glsl:f");
     check_says(2, "--mine: must not be more than 8", "methods linearize%s", some(0, FUNCTIONS));

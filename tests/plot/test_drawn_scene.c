@@ -195,7 +195,7 @@ TEST(test_numbers) {
     int lines = 0, points = 0;
     depths_of(STREET, certain, place);
     char *line = strtok(csv, "\r\n");
-    assert_string_equal(line, "panel,series,across [scene units],up [scene units],fights_from [scene units]");
+    assert_string_equal(line, "panel,series,across [scene units],up [scene units],fights_from [scene units],label");
     for (line = strtok(NULL, "\r\n"); line != NULL; line = strtok(NULL, "\r\n")) {
         const bool above = strstr(line, "From above") != NULL;
         const char *rest = strstr(line, ",map,");

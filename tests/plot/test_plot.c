@@ -227,6 +227,13 @@ TEST(test_every_figure_draws) {
     finder_found found;
     for (int i = 0; i < 2; i++)
         assert_int_equal(shadow_cascade_of(&split, &light, i, &maps[i]), SHADOW_OK);
+    shadow_cascade lamp = maps[0];
+    const dp_spec lit = dp_spec_default();
+    lamp.light.kind = SHADOW_SPOT;
+    lamp.light.fov = 60;
+    lamp.light.receiver_lo = 1;
+    lamp.light.receiver_hi = 20;
+    assert_int_equal(dp_setup_init(&lamp.light.setup, &lit), DP_OK);
     scene_made_begin(&made);
     scene_made_surface(&made, "floor", "");
     for (int i = 0; i < 2; i++)
@@ -249,8 +256,9 @@ TEST(test_every_figure_draws) {
         ask_add(&a, "unorm24", DP_MAPPING_D3D);
         ask_add(&a, "unorm24", DP_MAPPING_REVERSED);
         a.request.file = &file;
-        a.request.maps = maps;
-        a.request.map_count = 2;
+        const bool placed = strcmp(figure_get(i)->name, "shadow-distance") == 0;
+        a.request.maps = placed ? &lamp : maps;
+        a.request.map_count = placed ? 1 : 2;
         a.request.fights = &fights;
         a.request.family = family != NULL ? method_family_find(family) : NULL;
         chart *c = build(&a, figure_get(i)->name);

@@ -107,11 +107,11 @@ int shader_open(const judge_request *o, const dp_setup *setup, const char *opera
     *out = (shader){.o = o, .run = run, .timed = calloc(1, sizeof *run), .given = true, .most = ALL_MOST};
     int status = run != NULL && out->timed != NULL && path != NULL ? EXIT_FINE : EXIT_IO;
     if (colon != NULL && strpbrk(colon, "/\\.") != NULL)
-        colon = NULL;                           /* of a path, as C:\\depth.hlsl */
+        colon = NULL; /* of a path, as C:\\depth.hlsl */
+    const char *asker = o->judge.mine_count > 0 ? "--mine" : "judge";
     const bool whole = !spirv && colon == NULL; /* the only function of FILE */
     if (status == EXIT_FINE && !spirv && !whole && (colon == operand || colon[1] == '\0'))
-        status = usage_error("%s: must be FILE, FILE:FUNCTION or FILE.spv, got '%s'",
-                             o->judge.mine_count > 0 ? "--mine" : "judge", operand);
+        status = usage_error("%s: must be FILE, FILE:FUNCTION or FILE.spv, got '%s'", asker, operand);
     if (status == EXIT_FINE && spirv && o->judge.define_count > 0)
         status = option_error("define", "is not for SPIR-V, which has its constants in it");
     if (status == EXIT_FINE && !spirv && !whole)
@@ -122,7 +122,7 @@ int shader_open(const judge_request *o, const dp_setup *setup, const char *opera
         out->text = text;
         out->function = whole ? written_only(text, is_hlsl(path), out->own, error) : colon + 1;
         if (out->function == NULL)
-            status = usage_error("judge: %s: %s", path, error);
+            status = usage_error("%s: %s: %s", asker, path, error);
         else
             status = compile(out, setup, path, 0);
         if (status == EXIT_FINE && timed)

@@ -269,9 +269,11 @@ static void warn(const texture_request *o, const texture_source *s) {
     warn_of(s, "format");
     if (s->reading_count == 0 && o->image.metric == 0 && s->mapping_from == ORIGIN_ASSUMED)
         message("depthprec: %s: the mapping is assumed; --mapping sets it", s->path);
-    if (o->image.metric == 0 && texture_may_be_metric(s))
-        message("depthprec: %s: may be metric depth, whole numbers with%s: %s", s->path,
-                s->found.at_zero > 0 ? " 0 for holes" : "out holes", units_say(&s->picture, units));
+    if (o->image.metric != 0 || !texture_may_be_metric(s))
+        return;
+    units_say(&s->picture, units);
+    message("depthprec: %s: may be metric depth, whole numbers with%s%s%s", s->path,
+            s->found.at_zero > 0 ? " 0 for holes" : "out holes", *units != '\0' ? ": " : "", units);
 }
 
 void texture_read_on(const texture_request *o, texture_source *s) {
