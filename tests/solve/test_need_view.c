@@ -104,7 +104,7 @@ TEST(test_read) {
 static const struct {
     const char *camera, *view, *says; /* the camera null: a plain one */
 } mistakes[] = {
-    {NULL, "viewport = [640, 480]; subpixel = 8;", "viewport: needs fov or hfov"},
+    {NULL, "viewport = [640, 480]; subpixel = 8;", "viewport: needs fov, hfov or matrix"},
     {NULL, "viewport = [640, 480]; fov = 60;", "viewport: needs raster or subpixel"},
     {NULL, VIEW "hfov = 60;", "hfov: conflicts with fov"},
     {NULL, "fov = 60;", "fov: needs viewport: surfaces face the camera"},

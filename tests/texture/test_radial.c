@@ -381,7 +381,8 @@ TEST(what_has_no_rays_is_refused) {
         const char *arguments[6], *words;
     } bad[] = {
         {{"--radial"}, "--radial: needs --metric"},
-        {{"--metric", "1", "--radial"}, "--radial: needs the rays: --fov, --hfov or --intrinsics"},
+        {{"--metric", "1", "--radial"},
+         "--radial: needs the rays: --fov, --hfov, --intrinsics or four tangents as --matrix"},
         {{"--metric", "1", "--radial", "--ortho", "--fov", "60"}, "conflicts with --ortho"},
         {{"--metric", "1", "--intrinsics", "9,9,1,1", "--fov", "60"}, "--intrinsics: conflicts with --fov"},
         {{"--ortho", "--intrinsics", "9,9,1,1"}, "--intrinsics: conflicts with --ortho"},
