@@ -83,13 +83,31 @@ questions() {
         /^$/ { next }
         /^[^ ]/ { if (literal) print ".Ed"; literal = 0; print ".It"; asked = $0; next }
         asked != "" && !/^  depthprec / { sub(/^ */, ""); asked = asked " " $0; next }
+        # Typed on a page that is indented: narrower than the program breaks them.
+        function command(line,    cut) {
+            while (length(line) > 66) {
+                for (cut = 64; cut > 0 && substr(line, cut, 1) != " "; cut--)
+                    ;
+                if (cut < 12) break
+                typed(substr(line, 1, cut) "\\")
+                line = "    " substr(line, cut + 1)
+            }
+            typed(line)
+        }
+        function typed(line) {
+            gsub(/\\/, "\\e", line)
+            gsub(/'"'"'/, "\\(aq", line)
+            print line
+        }
         {
             show()
             if (!literal++) print ".Bd -literal"
             sub(/^  depthprec /, "depthprec ")
-            gsub(/\\/, "\\e")
-            gsub(/'"'"'/, "\\(aq")
-            print
+            sub(/^ */, "")
+            whole = whole $0
+            if (sub(/ *\\$/, " ", whole)) next
+            command(whole)
+            whole = ""
         }
         END { print ".Ed\n.El" }'
 }

@@ -92,8 +92,8 @@ commands() {
     ln -s "$plain" "$scratch/native/bin/depthprec"
     printf '#!/bin/sh\nexec node "%s/depthprec.js" "$@"\n' "$package" >"$scratch/npm/bin/depthprec"
     chmod +x "$scratch/npm/bin/depthprec"
-    sed -e "s/\\\\(aq/'/g" -e ':more' -e '/\\e$/{' -e 'N' -e 's/ *\\e\n */ /' -e 'b more' -e '}' man/depthprec-questions.7 |
-        grep '^depthprec ' | sed 's/\.png/.npy/g' |
+    "$plain" list questions | sed -e ':more' -e '/\\$/{' -e 'N' -e 's/ *\\\n */ /' -e 'b more' -e '}' |
+        sed -n 's/^  depthprec /depthprec /p' | sed 's/\.png/.npy/g' |
         awk -v part=$part 'part == 1 || (NR % part == 0 && !/ zfight /)' >"$scratch/questions"
     cat >>"$scratch/questions" <<'END'
 depthprec check engine.need

@@ -80,7 +80,7 @@ shadow_given shadow_engine_gives(const shadow_engine *engine, const shadow_light
                                  double bias, double normal) {
     const dp_setup *setup = &light->setup;
     const ground g = shadow_ground_at(light, light->receiver_lo);
-    const int kind = light->kind;
+    const shadow_kind kind = light->kind;
     const double by = soft_by(engine, light), value = bias * engine->bias_scale[kind] * by;
     const bool counted = engine->bias_in[kind] == SHADOW_IN_UNITS && !shadow_holds_distance(light);
     const double lo = dp_window(setup, light->receiver_lo), hi = dp_window(setup, light->receiver_hi);

@@ -121,6 +121,7 @@ ABSENT_TABLE(convert_write)
 ABSENT_TABLE(shadow_engine)
 ABSENT_TABLE(shadow_filter)
 ABSENT_TABLE(word)
+ABSENT_TABLE(question)
 ABSENT_TABLE(synthetic)
 
 /* Families of methods but interval, which figures are drawn by. */

@@ -43,8 +43,9 @@ static preset_camera made_by(const char *text) {
     char error[PRESET_ERROR_SIZE];
     const preset *row;
     preset_values values;
-    preset_camera made;
-    assert_true(preset_read(text, &row, &values, error) && preset_make(row, &values, &made, error));
+    preset_camera made = {0};
+    assert_true(preset_read(text, &row, &values, error));
+    assert_true(preset_make(row, &values, &made, error));
     return made;
 }
 

@@ -112,7 +112,7 @@ await test("search finds what people look for", async () => {
 
 await test("each question has its place, and the commands open in the page", async () => {
     const questions = facts.get(url("man/depthprec-questions.7.html"));
-    const count = readFileSync("man/depthprec-questions.7", "utf8").match(/^\.It$/gm).length;
+    const count = readFileSync(`${process.env.B ?? "build"}/man/depthprec-questions.7`, "utf8").match(/^\.It$/gm).length;
     demand(questions.ids.filter((id) => /^q\d+$/.test(id)).length === count, `not ${count} questions`);
     const commands = [...new Set(all.filter((link) => link.startsWith(`${url("depthprec.html")}#`)))];
     demand(commands.length >= 60, `only ${commands.length} commands`);

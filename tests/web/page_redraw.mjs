@@ -114,7 +114,7 @@ const pasted = (page, line) => page.evaluate((text) => {
 
 // Those of the manual page that the page has, as a person pastes them.
 async function questions() {
-    const text = readFileSync("man/depthprec-questions.7", "utf8").replaceAll(/ *\\e\n */g, " ").replaceAll("\\(aq", "'");
+    const text = readFileSync(`${process.env.B ?? "build"}/man/depthprec-questions.7`, "utf8").replaceAll(/ *\\e\n */g, " ").replaceAll("\\(aq", "'");
     const lines = [...text.matchAll(/^depthprec ((?:table|solve|bias|budget|zfight|prepass)\b[^|>\n]*)$/gm)].map(([, line]) => line);
     const page = await open();
     await watch(page);
