@@ -23,6 +23,8 @@
 #include "shadow/engine.h"
 #include "solve/check.h"
 #include "solve/cmd_check/check_report.h"
+#include "solve/cmd_solve/report.h"
+#include "solve/cmd_solve/request.h"
 #include "texture/cmd_texture/request.h"
 #include "texture/device.h"
 #include "texture/units.h"
@@ -66,6 +68,11 @@ ABSENT_COMMAND(world)
 
 int constants_write(const table_request *o) {
     return absent(o->line);
+}
+
+int solve_preset(const solve_request *o) {
+    (void)o;
+    return usage_error("solve for a number that a preset leaves open is not in the page: the program has it");
 }
 
 bool levels_wanted(const table_request *o) {
