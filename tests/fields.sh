@@ -33,7 +33,7 @@ all_named plot interval
 all_named plot map -F unorm24
 all_named plot budget -F unorm24
 all_named plot needs tests/needs/village.need
-for what in formats mappings presets platforms apis engines rasterizers programs upscalers schemes encodings packings constants traps lattices sensors products effects synthetic positions normals figures reads writes; do all_named list $what; done
+for what in formats mappings presets platforms apis engines rasterizers programs upscalers schemes encodings packings constants traps lattices sensors products effects synthetic positions normals figures reads writes limits remedies filters; do all_named list $what; done
 all_named zfight -n 1 -f 1.5 -F unorm16
 all_named zfight -n 1 -f 1.5 -F unorm16 --sample 100 --separation 0.01
 all_named zfight -n 1 -f 1.5 -F unorm16 -m d3d --rasterize --sample 10
