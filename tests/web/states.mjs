@@ -46,7 +46,9 @@ export const names = { formats: FORMATS, mappings: MAPPINGS, apis: APIS, rasters
 
 // Takes the names that `list TOPIC --json` prints; run is a command runner: words -> { out }.
 export function named(run) {
-    const list = (topic) => JSON.parse(run(["list", topic, "--json"]).out).items.map((item) => item.name);
+    // Of presets those that need no number.
+    const list = (topic) => JSON.parse(run(["list", topic, "--json"]).out).items.filter((item) => !/, needed/.test(item.camera ?? ""))
+        .map((item) => item.name);
     names.presets = list("presets");
     names.ariths = list("arithmetic");
     names.apis = [...list("apis"), "all"];
