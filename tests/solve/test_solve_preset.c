@@ -99,4 +99,5 @@ TEST(test_printed) {
     assert_true(said >= a.from && said < a.from + 1e-3 && preset_passes(&p, said) && a.below && !a.above);
     assert_true(keeps(said, 0, 800, 100, (double)NAN, true));
     assert_false(keeps(said - 1, 0, 800, 100, (double)NAN, false)); /* steps come and go by less than a level */
+    printed_free(&text);
 }
