@@ -74,7 +74,7 @@ bias_verdict need_bias(const need *n, const dp_setup *asked, dp_setup *setup) {
     goal.slope = 0.0;
     const double lo = fmin(fmax(n->lo, setup->spec.znear + goal.gap), n->hi);
     const bool lost = bias_is_missed(setup); /* no API biases what a fragment shader writes */
-    const bias_state state = lost ? (bias_state){.api = n->bias.api} : n->bias;
+    const bias_state none = {.api = n->bias.api}, state = lost ? none : n->bias;
     bias_verdict facing = bias_judge(setup, &state, &goal, lo, n->hi);
     facing.units = lost ? (double)NAN : facing.units;
     goal.slope = n->goal.slope;

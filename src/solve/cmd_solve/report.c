@@ -301,8 +301,10 @@ static void tell_slanted(const solve_report *r, told *t) {
                                             : number_in(number_down(up_to, SOLVE_DIGITS), camera_unit(&r->o->camera));
     else if (s->solved && s->possible)
         t->slanted = passing(r, s, solve_plane_of(s), s->plane.until);
+    else if (!isinf(s->reached.value))
+        t->slanted = measured(r, s->reached.value);
     else
-        t->slanted = isinf(s->reached.value) ? (number_text){"nothing"} : measured(r, s->reached.value);
+        t->slanted = (number_text){"nothing"};
 }
 
 /* The engine's code for the number that the first sentence says. */
