@@ -332,7 +332,7 @@ npm:
 NPM_NOT := $(patsubst %,src/%.c,draw/canvas draw/pixels image/png method/cmd_methods/command cli/stop texture/strips \
     probe/opengl probe/vulkan probe/vulkan_compute probe/compile \
     report/output_file report/terminal system/dynload system/sandbox)
-NPM_O := $(call web_objects,$(filter-out $(NPM_NOT),$(ROOMS)) $(patsubst %,src/web/%.c,canvas engine plain still) \
+NPM_O := $(call web_objects,$(filter-out $(NPM_NOT),$(ROOMS)) $(patsubst %,src/web/%.c,canvas engine plain still stream) \
     src/npm/standin.c)
 NPM_DOOR_O := $(call web_objects,src/npm/door.c)
 NPM_FILES := $(wildcard src/npm/*.js src/npm/*.ts src/npm/*.md) src/web/engine.js src/web/command.js LICENSE LICENSE.MIT \

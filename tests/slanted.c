@@ -450,3 +450,11 @@ bool slanted_in_depth(const raster_vertex v[3]) {
         inside = inside && v[i].z >= 0.0F && v[i].z <= v[i].w;
     return inside;
 }
+
+double slanted_height(const double v[3][2]) {
+    const double area = fabs((v[1][0] - v[0][0]) * (v[2][1] - v[0][1]) - (v[2][0] - v[0][0]) * (v[1][1] - v[0][1]));
+    double longest = 0.0;
+    for (int i = 0; i < 3; i++)
+        longest = fmax(longest, hypot(v[(i + 1) % 3][0] - v[i][0], v[(i + 1) % 3][1] - v[i][1]));
+    return area / longest;
+}

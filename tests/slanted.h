@@ -82,6 +82,8 @@ double slanted_along(const slanted *s, double x, double y);
  * @return false when they are in no class
  */
 bool slanted_fit(slanted *s, const double c[2]);
+/** The height of a triangle on the screen upon its longest edge, pixels. */
+double slanted_height(const double v[3][2]);
 /** Whether a triangle on the screen is no wider, higher and slimmer than the class says. */
 bool slanted_in_class(const slanted *s, const double at[3][2]);
 /** The guarantee at depth z for triangles of a class, in its world. */

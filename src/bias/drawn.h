@@ -23,7 +23,7 @@ typedef struct bias_pair {
     double slant; /**< the normal's angle to the view axis, degrees */
 } bias_pair;
 
-/** What is drawn: buffers of one layer each. */
+/** The drawing: buffers of one layer each. */
 typedef struct bias_drawing {
     const draw_camera *camera;
     const dp_setup *setup; /**< that of the camera, with its class */

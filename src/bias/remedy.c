@@ -107,7 +107,7 @@ bias_effect remedy_at(const dp_setup *setup, const remedy *row, double amount, d
     return e;
 }
 
-/* What a second near plane moves grows, and falls to 0 at the far plane: z - z' is greatest at f s/(s + 1), s^2 being
+/* The shift by a second near plane grows, and falls to 0 at the far plane: z - z' is greatest at f s/(s + 1), s^2 being
  * what 1/z - 1/f is multiplied by. The others' grows, or is the same everywhere. */
 bias_push remedy_push(const dp_setup *setup, const remedy *row, double amount, double lo, double hi) {
     const double far = setup->spec.zfar, s = sqrt(1.0 + (amount - 1.0) / (1.0 - amount * setup->spec.znear / far));

@@ -28,7 +28,7 @@ NAMED_ROWS(remedy, remedy);
 /** Whether it is one for that set-up. */
 bool remedy_suits(const remedy *row, const dp_setup *setup);
 
-/** What it does at z; `r` is NaN. A layer that is brought before the near plane is clipped: `limited`. */
+/** The remedy's work at z; `r` is NaN. A layer that is brought before the near plane is clipped: `limited`. */
 bias_effect remedy_at(const dp_setup *setup, const remedy *row, double amount, double z);
 
 /** Judges it from lo to hi, as bias_judge(); `units` is the least number that is enough, NaN where none is. */

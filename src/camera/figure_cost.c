@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What each set-up costs against the separation that it gives at a depth: a row each, the closest on top. */
+/* The costs of set-ups against the separation that each gives at a depth: a row each, the closest on top. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -38,7 +38,7 @@ static void mark_front(priced *all, size_t count) {
     }
 }
 
-/* What is paid in memory and in tests that are lost: those that pay alike are a series. The test of what no API has as
+/* The price in memory and in tests that are lost: those that pay alike are a series. The test of what no API has as
  * a depth buffer is that of a buffer beside it. */
 static bool pays_alike(const priced *a, const priced *b) {
     return a->cost.buffer == b->cost.buffer && a->cost.bytes == b->cost.bytes &&

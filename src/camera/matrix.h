@@ -39,7 +39,7 @@ bool camera_matrix_is_typed(const char *said);
  */
 bool camera_matrix_take(camera_matrix *m, dp_mapping asked, dp_mapping like, bool oblique, camera_fault *fault);
 
-/** What near and far may be: its `planes`, or null where its entries are exact, or there are none. */
+/** The ranges of near and far: its `planes`, or null where its entries are exact, or there are none. */
 const dp_planes *camera_matrix_left_open(const camera_matrix *m);
 
 /** The vertical angle, degrees, of a centred view of so many square pixels. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is said of a preset, and the camera that follows from it. */
+/* The words for a preset, and the camera that follows from them. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -106,7 +106,7 @@ bool preset_read(const char *text, const preset **row, preset_values *values, ch
     return true;
 }
 
-/* What was given, and examples of what is needed: "maplibre:zoom=14,height=800". */
+/* The example of a sentence, numbers that were given and samples of those needed: "maplibre:zoom=14,height=800". */
 static void append_example(const preset *row, const preset_values *v, char out[PRESET_ERROR_SIZE]) {
     append(out, PRESET_ERROR_SIZE, "%s", row->name);
     const char *between = ":";

@@ -27,7 +27,7 @@ typedef struct preset_parameter {
 
 enum { PRESET_PARAMETERS = 8, PRESET_WORDS_SIZE = 160 };
 
-/** What follows from them. Lengths in the unit of the row. */
+/** The camera that follows from them. Lengths in the unit of the row. */
 typedef struct preset_camera {
     double znear, zfar;
     double fov;   /**< degrees, of the axis of the row */
@@ -60,7 +60,7 @@ typedef struct preset {
 
 NAMED_ROWS(preset, preset);
 
-/** What was said of a preset: "maplibre:zoom=14,pitch=60". */
+/** The words for a preset: "maplibre:zoom=14,pitch=60". */
 typedef struct preset_values {
     double given[PRESET_PARAMETERS]; /**< NaN: not given */
     char words[PRESET_WORDS_SIZE];   /**< as it was typed */

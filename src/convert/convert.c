@@ -60,7 +60,7 @@ NAMED_TABLE(convert_write, writes);
 
 /* ---- Numbers ----------------------------------------------------------------------------------------------------- */
 
-/* What a code is read as: a quotient of two doubles, exactly. */
+/* The number that a code is read as: a quotient of two doubles, exactly. */
 typedef struct quotient {
     double num, den;
 } quotient;
@@ -114,7 +114,7 @@ static uint32_t code_below(const dp_format *f, quotient d) {
 static uint32_t nearest_code(const dp_format *f, quotient d) {
     if (d.den == 1)
         return dp_format_encode(f, DP_ROUND_NEAREST, d.num);
-    /* What is rounded twice goes wrong only where the first gave the middle between two floats. */
+    /* A quotient that is rounded twice goes wrong only where the first gave the middle between two floats. */
     const double once = d.num / d.den;
     if (is_fp32(f) && (dp_bits64(once) & 0x1FFFFFFFU) != 0x10000000U)
         return dp_bits32((float)once);
@@ -259,7 +259,7 @@ static void count_run(const convert_chain *chain, bool back, const run *r, conve
     }
 }
 
-/* Of codes lo to hi; a code's neighbour is the one below it, which may be another part's. */
+/* Counts codes lo to hi; a code's neighbour is the one below it, which may be another part's. */
 static convert_found count_part(const convert_chain *chain, uint32_t lo, uint32_t hi) {
     convert_found found = {0};
     const bool back = comes_back(chain);

@@ -50,7 +50,7 @@ static field gather(const method_family_row *family, const bench_result *results
     return f;
 }
 
-/* What has no end is drawn at that of the panel. */
+/* A number without end is drawn at that of the panel. */
 static double drawn_at(const timed *t, const chart_panel *panel) {
     return isinf(t->error) ? panel->y.hi : fmax(t->error, exact);
 }

@@ -114,7 +114,7 @@ static double derivative_claim(double ratio, double steps, double b) {
     return far_cell(ratio, steps);
 }
 
-/* Of a power of two the step is 4/3 of the cell, or 2/3. */
+/* At a power of two the step is 4/3 of the cell, or 2/3. */
 static double derivative_claim_half(double ratio, double steps, double b) {
     (void)b;
     return fmax(1 / 3.0 + 0x1p-10, far_cell(ratio, steps));
@@ -131,7 +131,7 @@ static double neighbours(double ratio, double steps, double roundings) {
     return curved(ratio, steps) * (1 + 2 * roundings) + roundings * steps / (1 - 1 / ratio);
 }
 
-/* Of a power of two the steps on either side differ; cells are the smallest part of their depths next to near, and next
+/* At a power of two the steps on either side differ; cells are the smallest part of their depths next to near, and next
  * to the far plane where that is not far. */
 static double neighbours_half(double ratio, double steps, double roundings) {
     return fmax(0x1p-12, curved(ratio, steps)) * (1 + 2 * roundings) + roundings * (0x1p11 + steps / (ratio - 1));

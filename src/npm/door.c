@@ -83,7 +83,7 @@ EXPORT(formats) size_t door_formats(void) {
     return count;
 }
 
-/* What a plane may be off by, however a rasterizer anchors it. */
+/* The error of a plane, however a rasterizer anchors it. */
 static dp_plane_error any_plane(void) {
     dp_plane_error worst = {0};
     for (int i = 0; i < DP_ANCHOR_COUNT; i++) {

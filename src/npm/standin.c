@@ -96,19 +96,6 @@ int output_close(output *out) {
     return cannot_write(out, out->error);
 }
 
-static ssize_t stream_write(void *cookie, const char *bytes, size_t size) {
-    output_bytes(cookie, bytes, size);
-    return (ssize_t)size;
-}
-
-FILE *output_stream(output *out) {
-    return fopencookie(out, "w", (cookie_io_functions_t){.write = stream_write});
-}
-
-bool output_stream_close(output *out, FILE *stream) {
-    return fclose(stream) == 0 && !output_failed(out);
-}
-
 bool output_same_file(const char *a, const char *b) {
     struct stat x, y;
     if (stat(a, &x) == 0 && stat(b, &y) == 0)

@@ -155,7 +155,7 @@ bool raster_span(const raster_target *target, const raster_piece *piece, int y, 
 /** Depths of the pixels `from` to `to` - 1 of row y, all inside the target, before the format rounds them. */
 void raster_depths(const raster_target *target, const raster_piece *piece, int y, int from, int to, float *depth);
 
-/** What is stored of such depths, each converted by itself. */
+/** The samples that are stored of such depths, each converted by itself. */
 void raster_convert(const raster_target *target, const float *depth, int count, uint32_t *code);
 
 /**

@@ -66,7 +66,7 @@ static double needed_at(const mapped *m, int which, double angle) {
     return sum;
 }
 
-/* What an engine's bias gives there: along the ray, by the slope, and along the normal. */
+/* The lengths that an engine's bias gives there: along the ray, by the slope, and along the normal. */
 static double given_at(const mapped *m, int which, double angle) {
     const figure_request *r = m->request;
     const shadow_given given = shadow_engine_gives(r->engine, m->light, r->api, r->bias, r->normal_bias);

@@ -33,7 +33,7 @@ typedef struct sensor_depths {
     size_t count;
 } sensor_depths;
 
-/** Of so many pixels one is looked at. */
+/** One pixel of so many is looked at. */
 size_t sensor_stride(const image *img);
 
 /** @return false without memory; sensor_depths_free() in either case */

@@ -67,19 +67,6 @@ void output_abandon(output *out) {
     out->used = 0;
 }
 
-static ssize_t stream_write(void *cookie, const char *bytes, size_t size) {
-    output_bytes(cookie, bytes, size);
-    return (ssize_t)size;
-}
-
-FILE *output_stream(output *out) {
-    return fopencookie(out, "w", (cookie_io_functions_t){.write = stream_write});
-}
-
-bool output_stream_close(output *out, FILE *stream) {
-    return fclose(stream) == 0 && !output_failed(out);
-}
-
 canvas_format canvas_format_of(const char *path) {
     (void)path;
     return CANVAS_FORMAT_COUNT; /* --type says it */

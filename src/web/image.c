@@ -25,7 +25,7 @@ static asked_line line;
 static texture_source source;
 static const char *unit; /* null where nothing says what a scene unit is */
 
-/* What there is in all pixels. */
+/* The sum over all pixels. */
 static struct {
     uint64_t holes, sky, seen;
     double lo, hi; /* eye depths */
@@ -192,7 +192,7 @@ PAGE_EXPORT("image_pixel") void image_pixel(unsigned x, unsigned y) {
 
 /* ---- The picture ------------------------------------------------------------------------------------------------- */
 
-/* What is drawn of each pixel: its depth, or how far that may be off; NaN of none. */
+/* The number that is drawn of each pixel: its depth, or how far that may be off; NaN of none. */
 static double drawn_of(const texture_request *o, uint32_t x, uint32_t y, bool error) {
     const uint32_t code = code_at(x, y);
     if (code == UINT32_MAX || is_sky(o, code))

@@ -61,14 +61,6 @@ static double greatest(const raster_vertex v[3]) {
     return fmax(fmax((double)(v[0].z / v[0].w), (double)(v[1].z / v[1].w)), (double)(v[2].z / v[2].w));
 }
 
-static double height_of(const double v[3][2]) {
-    const double area = fabs((v[1][0] - v[0][0]) * (v[2][1] - v[0][1]) - (v[2][0] - v[0][0]) * (v[1][1] - v[0][1]));
-    double longest = 0.0;
-    for (int i = 0; i < 3; i++)
-        longest = fmax(longest, hypot(v[(i + 1) % 3][0] - v[i][0], v[(i + 1) % 3][1] - v[i][1]));
-    return area / longest;
-}
-
 /* About what is needed: a share of it, of either number. */
 static bias_state draw_state(rng *r, const dp_setup *setup, const bias_api *api, double lo, double hi) {
     const double sign = bias_sign(setup), least = bias_factor_least(setup);
@@ -119,8 +111,8 @@ static void check_pixels(const slanted *s, const raster_target *target, const bi
 static bool judge_one(rng *r, slanted *s, const char *raster, outcome *out) {
     const double c[2] = {s->c, s->c};
     dp_setup setup;
-    if (!slanted_fit(s, c) || height_of((const double(*)[2])s->at[0]) < 1.25 ||
-        height_of((const double(*)[2])s->at[1]) < 1.25)
+    if (!slanted_fit(s, c) || slanted_height((const double(*)[2])s->at[0]) < 1.25 ||
+        slanted_height((const double(*)[2])s->at[1]) < 1.25)
         return false;
     dp_spec spec = s->setup.spec;
     spec.model = DP_MODEL_EXACT;
@@ -179,7 +171,7 @@ static bool drawn_at(const bias_drawing *d, const bias_pair *pair, int which, in
         raster_triangle drawn;
         int from, to;
         draw_mesh_corners(mesh, i / 2 / mesh->cells[1], i / 2 % mesh->cells[1], i % 2, window);
-        bool seen = height_of((const double(*)[2])window) >= BIAS_DRAWN_LOWEST;
+        bool seen = slanted_height((const double(*)[2])window) >= BIAS_DRAWN_LOWEST;
         for (int k = 0; k < 3 && seen; k++) {
             draw_ray(d->camera, window[k], ray);
             facing = pair->plane.normal[0] * ray[0] + pair->plane.normal[1] * ray[1] + pair->plane.normal[2];

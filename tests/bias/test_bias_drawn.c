@@ -37,15 +37,6 @@ static bool draw(const slanted *s, const raster_target *target, int which, layer
     return true;
 }
 
-/* The height upon the longest edge, pixels. */
-static double height_of(const double v[3][2]) {
-    const double area = fabs((v[1][0] - v[0][0]) * (v[2][1] - v[0][1]) - (v[2][0] - v[0][0]) * (v[1][1] - v[0][1]));
-    double longest = 0.0;
-    for (int i = 0; i < 3; i++)
-        longest = fmax(longest, hypot(v[(i + 1) % 3][0] - v[i][0], v[(i + 1) % 3][1] - v[i][1]));
-    return area / longest;
-}
-
 /* Direct3D 11.3, 15.10: in binary32, on the depth before it is stored. */
 static float biased(const slanted *s, const layer *of, float depth, double units, double factor) {
     const bool is_float = s->setup.spec.format.kind == DP_FORMAT_FLOAT;
@@ -117,7 +108,7 @@ static void judge(slanted *s, size_t row, double share, double more, bool sloped
     spec.model = DP_MODEL_EXACT;
     spec.triangles = s->class;
     if (dp_setup_init(&setup, &spec) != DP_OK || !draw(s, &target, 0, &of[0]) || !draw(s, &target, 1, &of[1]) ||
-        height_of((const double(*)[2])s->at[0]) < 1.25 || height_of((const double(*)[2])s->at[1]) < 1.25)
+        slanted_height((const double(*)[2])s->at[0]) < 1.25 || slanted_height((const double(*)[2])s->at[1]) < 1.25)
         return;
     const raster_piece *first = &of[0].drawn.piece[0], *second = &of[1].drawn.piece[0];
     const int y0 = first->y0 > second->y0 ? first->y0 : second->y0;

@@ -161,7 +161,7 @@ TEST(told_is_enough) {
     }
 }
 
-/* What a bias does not do is said where it applies, and nowhere else. */
+/* A limit of biases is said where it applies, and nowhere else. */
 TEST(limits_where_they_apply) {
     check_says_all(0, "bias --api d3d11 -F fp32 -m reversed --units 2 --range 1:100",
                    SAID("r doubles", "!triangles alone", "!no infinity"));

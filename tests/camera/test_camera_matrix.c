@@ -133,7 +133,7 @@ TEST(in_a_file) {
     tally_end(&t);
 }
 
-/* Of a view that is not centred, or whose pixels are no squares, the centred one with square pixels is judged that
+/* For a view that is not centred, or whose pixels are no squares, the centred one with square pixels is judged that
  * holds it: none of its pixels is smaller, no edge lies outside, and triangles are at least as slim. */
 TEST(views_that_are_not_centred) {
     tally t = {.name = "views"};

@@ -6,8 +6,8 @@
 #include "printed.h"
 #include "support.h"
 
-/* What APIs have: Vulkan's D16, X8_D24 and D32; of binary16 no depth buffer, and the fragment shader of linear and
- * logarithmic depth writes it. */
+/* The formats that APIs have: Vulkan's D16, X8_D24 and D32; of binary16 no depth buffer, and the fragment shader of
+ * linear and logarithmic depth writes it. */
 static const struct {
     const char *format, *bytes;
     bool buffer;
@@ -96,7 +96,8 @@ TEST(costs_and_separations) {
     check("-f inf", 1e4, spec, true);
 }
 
-/* What costs no more and gives less than all beside it is marked, and nothing else; what an option names is shown. */
+/* A set-up that costs no more and gives less than all beside it is marked, and nothing else; what an option names is
+ * shown. */
 TEST(front_and_names) {
     static const char *const names[] = {"* fp32 reversed", "fp32 log", "* unorm16 log", "* unorm16 reversed"};
     static const svg_font fonts[] = {{17, true}, {13, true}, {13, false}, {12, false}};

@@ -49,7 +49,7 @@ static preset_camera made_by(const char *text) {
     return made;
 }
 
-/* Of each numbers that its own functions gave: tests/presets.sh asks them anew. */
+/* Each row has numbers that its own functions gave: tests/presets.sh asks them anew. */
 TEST(test_computed) {
     static const struct {
         const char *text;
@@ -111,7 +111,7 @@ static double code_in_the_middle(const char *text, double znear_pixels) {
     return cell.hi - cell.lo;
 }
 
-/* What users of MapLibre's globe reported as fighting over kilometres, and what the flat map's near plane would do. */
+/* Users of MapLibre's globe reported fighting over kilometres, and what the flat map's near plane would do. */
 TEST(test_globe) {
     static const char low[] = "maplibre-globe:zoom=4,height=800", high[] = "maplibre-globe:zoom=4,height=1080";
     assert_relative(code_in_the_middle(low, .5), 839, .01);
@@ -120,7 +120,7 @@ TEST(test_globe) {
     assert_relative(code_in_the_middle(high, 1080 / 50.), 35.4, .01);
 }
 
-/* What a person may write wrongly, and what the sentence then names. */
+/* Mistakes that a person may make, and what the sentence then names. */
 TEST(test_said) {
     static const struct {
         const char *text, *says;

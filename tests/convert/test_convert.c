@@ -289,7 +289,7 @@ TEST(factors_of_programs) {
     assert_int_equal(f.first.code[0], 8388609);
 }
 
-/* Of 16 bits in 24: c 2^8 is the largest whose high bits are c. */
+/* 16 bits in 24: c 2^8 is the largest whose high bits are c. */
 TEST(bits_that_are_moved) {
     const char *const names[3] = {"unorm16", "unorm24", "unorm16"}, *const up[3] = {"unorm16", "unorm24", NULL};
     assert_int_equal(found(names, "shift", 0, false, false).changed, 0);

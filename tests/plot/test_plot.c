@@ -216,6 +216,18 @@ static const char needs[] =
     "                 y = { camera = \"a\"; at = 5.0; error = 0.01; };"
     "                 z = { camera = \"b\"; range = [2.0, 50.0]; separation = 0.01; }; };";
 
+/* A light that has a place, with the rest of a map of the sun. */
+static shadow_cascade lamp_of(const shadow_cascade *map) {
+    shadow_cascade lamp = *map;
+    const dp_spec lit = dp_spec_default();
+    lamp.light.kind = SHADOW_SPOT;
+    lamp.light.fov = 60;
+    lamp.light.receiver_lo = 1;
+    lamp.light.receiver_hi = 20;
+    assert_int_equal(dp_setup_init(&lamp.light.setup, &lit), DP_OK);
+    return lamp;
+}
+
 TEST(test_every_figure_draws) {
     static const int sizes[][2] = {{800, 500}, {DRAW_WIDTH_MIN, DRAW_HEIGHT_MIN}, {1700, 300}};
     need_file file;
@@ -227,13 +239,7 @@ TEST(test_every_figure_draws) {
     finder_found found;
     for (int i = 0; i < 2; i++)
         assert_int_equal(shadow_cascade_of(&split, &light, i, &maps[i]), SHADOW_OK);
-    shadow_cascade lamp = maps[0];
-    const dp_spec lit = dp_spec_default();
-    lamp.light.kind = SHADOW_SPOT;
-    lamp.light.fov = 60;
-    lamp.light.receiver_lo = 1;
-    lamp.light.receiver_hi = 20;
-    assert_int_equal(dp_setup_init(&lamp.light.setup, &lit), DP_OK);
+    const shadow_cascade lamp = lamp_of(&maps[0]);
     scene_made_begin(&made);
     scene_made_surface(&made, "floor", "");
     for (int i = 0; i < 2; i++)

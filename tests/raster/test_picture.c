@@ -391,8 +391,8 @@ typedef struct stored {
     const char *name;
 } stored;
 
-/* What the vertices' depths make of a place, by the plane through them on the screen: d and how much it changes over a
- * pixel. */
+/* The depth that the vertices' depths make of a place, by the plane through them on the screen: d and how much it
+ * changes over a pixel. */
 static double interpolated(const stored *s, const dp_setup *exact, const double window[2], double side, double *slope) {
     double v[3][3];
     for (int i = 0; i < 3; i++) {

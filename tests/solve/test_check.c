@@ -285,7 +285,7 @@ TEST(biases) {
             assert_true(v->z >= v->asked->lo && v->z <= v->asked->hi && v->code == dp_code(&v->setup, v->z));
         done(&j);
     }
-    /* What a fragment shader writes has none. */
+    /* A fragment shader's depth has none. */
     judged j = judge_one("near = 0.1; far = 1000; mapping = \"log\"; log_c = 1; format = \"unorm24\";",
                          "at = 5; bias = { api = \"gl\"; units = -100; };");
     assert_true(!j.verdicts[0].passed && isnan(j.verdicts[0].value));

@@ -87,6 +87,6 @@ await test("a link is the command again", async () => {
         demand(same(words, lines[i].filter((word) => word !== "--")) && toFragment([words]) === fragment, `${lines[i].join(" ")} -> ${out}`);
         good++;
     });
-    demand(good > 150, `only ${good}`);
+    demand(good > 200, `only ${good}`);
 });
 finish();

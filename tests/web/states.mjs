@@ -35,7 +35,7 @@ function written(r, x, unit) {
 
 const FORMATS = ["fp16", "fp32", "unorm16", "unorm24", "d24", "d16", "d32f", "depth24plus", "unorm8", "unorm31",
     "float5.10", "float6.9b40", "all", "unorm24,fp32"];
-const MAPPINGS = ["d3d", "reversed", "gl", "linear", "log", "all", "d3d,reversed", "gl-reversed"];
+const MAPPINGS = ["d3d", "reversed", "gl", "linear", "log", "gl,linear", "d3d,reversed", "gl-reversed"];
 const QUICK = ["distribution", "share", "error", "interval", "budget"], FIGURES = [...QUICK, ...QUICK, ...QUICK, "map"]; // which takes long
 const APIS = ["gl", "vulkan", "d3d11", "d3d12", "webgpu", "metal", "all"];
 const RASTERS = ["llvmpipe", "swiftshader", "warp", "spec-d3d", "spec-vulkan"];

@@ -81,20 +81,18 @@ static const name_list remedies = {.rows = &remedy_table};
 /* NAME, or NAME:X where it has a number. */
 static int parse_remedy(asked_line *line, const option_row *row, const char *value, void *group) {
     bias_request *o = group;
-    const size_t length = strcspn(value, ":");
-    char name[32];
     list_item found;
+    const char *x;
     (void)line;
-    snprintf(name, sizeof name, "%.*s", (int)length, value);
-    if (length >= sizeof name || !names_find(row->names, name, NULL, &found))
-        return option_unknown(row, name);
+    if (option_read_named(row, value, &found, &x) != EXIT_FINE)
+        return EXIT_USAGE;
     o->remedy = found.row;
     const bool numbered = o->remedy->amount[0] != '\0';
-    if (!numbered && value[length] == '\0')
+    if (!numbered && x == NULL)
         return EXIT_FINE;
     if (!numbered)
         return option_refuse(row, "must be %s, which has no number, got '%s'", o->remedy->name, value);
-    if (value[length] == '\0' || !number_parse(value + length + 1, NUMBER_FINITE, &o->amount) ||
+    if (x == NULL || !number_parse(x, NUMBER_FINITE, &o->amount) ||
         !(o->amount >= o->remedy->least && o->amount <= o->remedy->most))
         return option_refuse(row, "must be %s:X, X from %g to %g (%s), got '%s'", o->remedy->name, o->remedy->least,
                              o->remedy->most, o->remedy->amount, value);

@@ -184,7 +184,7 @@ static void say_choice(page *p, const biasing *b) {
                   open);
 }
 
-/* What the bias does not do there, --full: anywhere. */
+/* The limits of the bias there, --full: anywhere. */
 static void say_limits(page *p, const biasing *b) {
     const bias_use use = {.setup = b->each.setup,
                           .state = &b->state,

@@ -336,6 +336,10 @@ option_parser parse_size_or_n;   /**< the same, or one number for both */
 /** NAME[,NAME...]: one after the other to `add`. */
 int parse_names(asked_line *line, const option_row *row, const char *value, void *group, option_parser *add);
 
+/** Reads NAME, or NAME:X. @param found  what is called so @param x  what stands behind the colon; null without one
+ * @return an exit status, after one line on stderr */
+int option_read_named(const option_row *row, const char *value, list_item *found, const char **x);
+
 /** Refuses a name that is none of the row's. @return EXIT_USAGE */
 int option_unknown(const option_row *row, const char *name);
 

@@ -133,6 +133,14 @@ int parse_names(asked_line *line, const option_row *row, const char *value, void
     return EXIT_FINE;
 }
 
+int option_read_named(const option_row *row, const char *value, list_item *found, const char **x) {
+    const size_t length = strcspn(value, ":");
+    char name[64];
+    snprintf(name, sizeof name, "%.*s", (int)length, value);
+    *x = value[length] == ':' ? value + length + 1 : NULL;
+    return length < sizeof name && names_find(row->names, name, NULL, found) ? EXIT_FINE : option_unknown(row, name);
+}
+
 /* A share, or a percentage with its sign. */
 int parse_share(asked_line *line, const option_row *row, const char *value, void *group) {
     (void)line;

@@ -13,7 +13,7 @@
 
 enum { NAME_SIZE = 32 };
 
-/* What comes of a way to write. Numbers that do not exist are NaN. */
+/* The outcome of a way to write. Numbers that do not exist are NaN. */
 typedef struct outcome {
     char write[NAME_SIZE];
     convert_found found;
@@ -88,7 +88,7 @@ static int read_formats(conversion *a) {
     return EXIT_FINE;
 }
 
-/* What has no effect is refused. */
+/* Options without effect are refused. */
 static int check(const conversion *a) {
     const convert_request *o = a->o;
     const convert_chain *c = &a->chain;
@@ -138,7 +138,7 @@ static outcome try(const conversion *a, convert_rule write) {
     return out;
 }
 
-/* What else may be written where integers come back: each way, by the largest code and by the number of codes. */
+/* Other ways to write where integers come back: each way, by the largest code and by the number of codes. */
 static void find_others(conversion *a) {
     enum { FASTEST = 1 << 25 };
     const dp_format *to = &a->chain.format[a->chain.count - 1];

@@ -21,19 +21,17 @@ static bool read_factor(const char *text, double *out) {
 /* WAY[:F] */
 static int parse_rule(asked_line *line, const option_row *row, const char *value, void *group) {
     convert_rule *rule = option_field(row, group);
-    char name[64];
-    const size_t length = strcspn(value, ":");
-    list_item item;
+    list_item found;
+    const char *factor;
     (void)line;
-    snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1), value);
-    if (!names_find(row->names, name, NULL, &item))
-        return option_unknown(row, name);
-    *rule = (convert_rule){.way = item.row};
-    if (value[length] == '\0')
+    if (option_read_named(row, value, &found, &factor) != EXIT_FINE)
+        return EXIT_USAGE;
+    *rule = (convert_rule){.way = found.row};
+    if (factor == NULL)
         return EXIT_FINE;
     if (!rule->way->scales)
         return option_refuse(row, "%s takes no factor, got '%s'", rule->way->name, value);
-    if (!read_factor(value + length + 1, &rule->factor))
+    if (!read_factor(factor, &rule->factor))
         return option_refuse(row, "must have a whole factor from 1 to 2^32 that binary32 has, as in %s:2^24, got '%s'",
                              rule->way->name, value);
     return EXIT_FINE;

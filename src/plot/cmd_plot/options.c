@@ -29,6 +29,7 @@ static const option_use of_setups[] = {
     OWN("model", DEFAULT("exact"), WITHOUT("what is guaranteed, over the lattice, in error and interval; float in "
         "figures of its pipeline; staged in distribution and share with gl and gl-reversed")), END};
 static const option_use of_setups_and_models[] = {
+    OWN("matrix", ALSO(CAMERA_OF_TANGENTS)),
     OWN("preset", ALSO(CAMERA_OF_VIEW)), OWN("platform", ALSO("with --viewport also its rasterizer")), TAKE("rounding"),
     OWN("arith", ALSO("by default that of --raster or --platform where known")),
     TAKE("log-c"), END};

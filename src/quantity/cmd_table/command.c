@@ -147,7 +147,7 @@ static const promise *guarantee_over(const table *t, const dp_setup *full, promi
                                                                                                                 : NULL;
 }
 
-/* Of surfaces at any slant that was asked about, or is assumed; null where nothing is guaranteed to them. */
+/* For surfaces at any slant that was asked about, or is assumed; null where nothing is guaranteed to them. */
 static const dp_setup *any_slant(const table *t) {
     return each_setup_slanted(&t->each)               ? &t->each.slanted
            : t->each.assumed.spec.triangles.width > 0 ? &t->each.assumed

@@ -171,7 +171,7 @@ static const compared *next_slanted(const comparison *c, const compared *last) {
     return next;
 }
 
-/* What the table, which is of surfaces that face the camera, comes to at any slant. */
+/* The table is of surfaces that face the camera: this is what it comes to at any slant. */
 static void say_slanted(page *p, const comparison *c, const char *limit) {
     char said[512] = "", view[SLANT_ASSUMED_SIZE] = "presets' views", text[RESOLVED_TEXT_SIZE];
     const compared *of = c->rows, *r = NULL;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What simpler models would have made of the same findings: surfaces fight where less apart than the model asks for. */
+/* Simpler models and the same findings: surfaces fight where less apart than the model asks for. */
 #include <math.h>
 
 #include "core/engine.h"

@@ -53,7 +53,7 @@ typedef struct scene_bias {
     double units, factor;
 } scene_bias;
 
-/* What another model makes of the findings: how many may fight, and how many of them otherwise than was decided. */
+/* Another model's findings: how many may fight, and how many of them otherwise than was decided. */
 typedef struct scene_simpler {
     const char *model, *surfaces; /* "facing" or "any slant" */
     uint64_t fights, differs;

@@ -72,21 +72,19 @@ static const name_list filters = {.rows = &shadow_filter_table};
 /* NAME, or NAME:X where it has a number: sets --kernel to a whole number that covers it. */
 static int parse_filter(asked_line *line, const option_row *row, const char *value, void *group) {
     shadow_asked *o = group;
-    const size_t length = strcspn(value, ":");
-    char name[32];
     list_item found;
+    const char *x;
     double number = 0.0;
     (void)line;
-    snprintf(name, sizeof name, "%.*s", (int)length, value);
-    if (length >= sizeof name || !names_find(row->names, name, NULL, &found))
-        return option_unknown(row, name);
+    if (option_read_named(row, value, &found, &x) != EXIT_FINE)
+        return EXIT_USAGE;
     const shadow_filter *f = found.row;
     const bool numbered = f->amount[0] != '\0';
     if (f->instead[0] != '\0')
         return option_refuse(row, "must be a filter that compares depths, got '%s': %s", f->name, f->instead);
-    if (!numbered && value[length] != '\0')
+    if (!numbered && x != NULL)
         return option_refuse(row, "must be %s, which has no number, got '%s'", f->name, value);
-    if (numbered && (value[length] == '\0' || !number_parse(value + length + 1, NUMBER_FINITE, &number) ||
+    if (numbered && (x == NULL || !number_parse(x, NUMBER_FINITE, &number) ||
                      !(number >= f->least && number <= f->most) || (f->whole && number != floor(number))))
         return option_refuse(row, "must be %s:%s, %s %s from %g to %g, got '%s'", f->name, f->amount, f->amount,
                              f->whole ? "a whole number" : "a number", f->least, f->most, value);

@@ -336,7 +336,7 @@ static void arrange(solve_report *r) {
         qsort(r->items + 1, r->count - 1, sizeof r->items[0], compare_alternatives);
 }
 
-/* What each is at any slant, where it is of guaranteed separations and nobody gave a viewport. */
+/* The number of each at any slant, where it is of guaranteed separations and nobody gave a viewport. */
 static void add_slanted(solve_report *r) {
     for (size_t i = 0; i < r->count; i++) {
         const solve_candidate *c = &r->items[i];

@@ -187,7 +187,7 @@ static bool is_slanted(const solve_report *r) {
     return r->o->camera.triangles.width > 0;
 }
 
-/* Of guaranteed separations, without a viewport: and what of them is at any slant stands beside it, if anything. */
+/* Guaranteed separations without a viewport: what there is of them at any slant stands beside it. */
 static bool is_facing(const solve_report *r, const solve_candidate *c) {
     const bool computed = dp_mapping_get(c->spec.mapping)->curve == DP_CURVE_PERSPECTIVE;
     return r->kind == QUANTITY_SEPARATION && !is_slanted(r) && (c->spec.model == DP_MODEL_FLOAT || !computed);
