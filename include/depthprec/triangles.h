@@ -59,10 +59,14 @@ typedef struct dp_anchor_row {
  */
 DP_API const dp_anchor_row *dp_anchor_get(dp_anchor anchor);
 
+/** The least and the most vertical field of view, degrees: beyond them tangents are no numbers that a view has. */
+#define DP_FOV_LEAST 0.001
+#define DP_FOV_MOST  179.9
+
 /** A view, a rasterizer and a class of triangles. Start from dp_triangles_default() and change what differs. */
 typedef struct dp_triangles {
     int width, height;         /**< of the viewport, pixels, 1 to 32768 */
-    double fov_y;              /**< vertical field of view, degrees, 0.001 to 179.9 */
+    double fov_y;              /**< vertical field of view, degrees, DP_FOV_LEAST to DP_FOV_MOST */
     int subpixel;              /**< bits of the grid to which vertices move, 1 to 8; 0: those of the plane do not */
     dp_plane_error plane;      /**< of the rasterizer */
     double slant_lo, slant_hi; /**< angles of the normal to the view axis, degrees, 0 <= lo <= hi <= 90 */

@@ -59,7 +59,7 @@ static bool random_pair(const bias_drawing *d, uint64_t *state, bias_pair *out) 
     const int y = (int)(draw_random(state) % (uint64_t)d->camera->target.height);
     const double window[2] = {x + 0.5, y + 0.5}, azimuth = 2.0 * M_PI * draw_uniform(state);
     out->slant = 90.0 * draw_uniform(state);
-    const double angle = out->slant * M_PI / 180.0, z = draw_log_uniform(state, d->lo, d->hi);
+    const double angle = out->slant * DP_DEGREE, z = draw_log_uniform(state, d->lo, d->hi);
     out->plane =
         (draw_plane){.normal = {dp_sin(angle) * dp_cos(azimuth), dp_sin(angle) * dp_sin(azimuth), dp_cos(angle)}};
     for (int k = BELOW; k <= BIASED; k++) {

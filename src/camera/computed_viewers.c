@@ -5,9 +5,8 @@
 #include "camera/computed.h"
 #include "core/elementary.h"
 
-#define DEGREES (3.14159265358979323846 / 180.0)
-#define NEEDED  (double)NAN
-#define LARGE   1e9 /* of a size, in scene units */
+#define NEEDED (double)NAN
+#define LARGE  1e9 /* of a size, in scene units */
 
 /* ---- From a sphere around the scene ------------------------------------------------------------------------------ */
 
@@ -18,7 +17,7 @@
 static void compute_vtk(const double *given, preset_camera *out) {
     enum { SPHERE, DISTANCE, TOLERANCE, EXPANSION, FOV };
     double near = (given[DISTANCE] - 1.0) * given[SPHERE], far = (given[DISTANCE] + 1.0) * given[SPHERE];
-    const double missing = 0.2 * dp_tan(0.5 * given[FOV] * DEGREES) * far - (far - near);
+    const double missing = 0.2 * dp_half_tangent(given[FOV]) * far - (far - near);
     far += 0.5 * fmax(missing, 0.0);
     near -= 0.5 * fmax(missing, 0.0);
     near = fmax(near, 0.0);
@@ -44,7 +43,7 @@ static void compute_vtk(const double *given, preset_camera *out) {
 const preset_function computed_vtk = VTK(0.001), computed_vtkjs = VTK(0.01);
 
 static void compute_model_viewer(const double *given, preset_camera *out) {
-    const double orbit = given[0] / dp_sin(0.5 * given[2] * DEGREES) * given[1] / 100.0;
+    const double orbit = given[0] / dp_sin(0.5 * given[2] * DP_DEGREE) * given[1] / 100.0;
     out->zfar = 2.0 * fmax(given[0], orbit);
     out->znear = out->zfar / 1000.0;
     out->fov = given[2];
@@ -86,7 +85,7 @@ static void compute_babylon(const double *given, preset_camera *out) {
 const preset_function computed_babylon = {{SIZE("diagonal")}, compute_babylon};
 
 static void compute_open3d(const double *given, preset_camera *out) {
-    const double distance = given[1] * given[0] / dp_tan(0.5 * given[2] * DEGREES);
+    const double distance = given[1] * given[0] / dp_half_tangent(given[2]);
     out->znear = fmax(0.01 * given[0], distance - 3.0 * given[0]);
     out->zfar = distance + 3.0 * given[0];
     out->fov = given[2];
@@ -130,7 +129,7 @@ const preset_function computed_cesium = {{{"near", "m", 0.01, 1e8, 1.0, 1.0},
 static void compute_blender(const double *given, preset_camera *out) {
     out->znear = given[0];
     out->zfar = given[1];
-    out->fov = 2.0 * dp_atan(0.5 * given[3] / given[2]) / DEGREES;
+    out->fov = 2.0 * dp_atan(0.5 * given[3] / given[2]) / DP_DEGREE;
 }
 
 #define BLENDER(near, sensor)                                                                                          \

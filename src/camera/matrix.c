@@ -14,7 +14,7 @@
 
 enum { FILE_MOST = 1 << 16, DIGITS_ROUNDED = 6, WORD_MOST = 64, WORD_SHOWN = 24 };
 
-static const double DEGREE = M_PI / 180, SQUARE = 1e-5; /* how far pixels may be from squares */
+static const double SQUARE = 1e-5; /* how far pixels may be from squares */
 
 /* ---- Its numbers ------------------------------------------------------------------------------------------------- */
 
@@ -291,7 +291,7 @@ bool camera_matrix_angle(const camera_matrix *m, int width, int height, double *
             "%.6g and %.6g to %.6g: a @viewport as wide and high as it is mends the pixels",
             width, height, (-1 - p->centre[0]) * p->half[0], (1 - p->centre[0]) * p->half[0],
             (-1 - p->centre[1]) * p->half[1], (1 - p->centre[1]) * p->half[1]);
-    *fov_y = p->ortho ? *fov_y : 2 * dp_atan(p->half[1]) / DEGREE;
+    *fov_y = p->ortho ? *fov_y : 2 * dp_atan(p->half[1]) / DP_DEGREE;
     return true;
 }
 
@@ -305,7 +305,7 @@ bool camera_matrix_cover(camera_matrix *m, dp_triangles *t, camera_fault *fault)
     dp_triangles held = *t;
     held.width = (int)fmin(width, 1e6);
     held.height = (int)fmin(height, 1e6);
-    held.fov_y = 2 * dp_atan(0.5 * height * pixel) / DEGREE;
+    held.fov_y = 2 * dp_atan(0.5 * height * pixel) / DP_DEGREE;
     held.slim = t->slim * pixel / fmin(across, up); /* in pixels of which one side has grown */
     if (dp_triangles_check(&held) != DP_OK)
         return camera_fails(fault, "matrix", "has a view that no centred one of square pixels holds: %s",

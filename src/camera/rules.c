@@ -63,7 +63,7 @@ bool camera_refused(const dp_spec *spec, dp_status status, const char *aside, ca
 
 bool camera_vertical(double fov_x, int width, int height, double *fov_y, camera_fault *fault) {
     *fov_y = dp_fov_vertical(fov_x, width, height);
-    return (*fov_y >= 0.001 && *fov_y <= 179.9) || /* as dp_triangles has it */
-           camera_fails(fault, "hfov", "makes a vertical angle of %.6g degrees, which must be from 0.001 to 179.9",
-                        *fov_y);
+    return (*fov_y >= DP_FOV_LEAST && *fov_y <= DP_FOV_MOST) ||
+           camera_fails(fault, "hfov", "makes a vertical angle of %.6g degrees, which must be from %g to %g", *fov_y,
+                        DP_FOV_LEAST, DP_FOV_MOST);
 }

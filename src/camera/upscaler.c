@@ -5,11 +5,11 @@
 
 #include "core/elementary.h"
 
-static const double factor = 1.37e-5, degree = 0.017453292519943295;
+static const double factor = 1.37e-5;
 
 /* Tangents of the half angles. */
 static double half_height(const upscaler_view *v) {
-    return dp_tan(0.5 * degree * v->fov_y);
+    return dp_half_tangent(v->fov_y);
 }
 
 static double half_width(const upscaler_view *v) {

@@ -197,7 +197,7 @@ static double turned(pack_layout layout, const bound_arithmetic *how) {
 
 /* Vectors of binary32 have no length of exactly 1: of xyz all places of the cube of a code. */
 double code_normal_bound(const pack_row *row, const bound_arithmetic *how) {
-    const double half = sqrt(3) / 2 / (double)((1 << (row->bits - 1)) - 1), degree = M_PI / 180;
+    const double half = sqrt(3) / 2 / (double)((1 << (row->bits - 1)) - 1), degree = DP_DEGREE;
     const double exact = row->layout == PACK_XYZ ? dp_atan2(half, sqrt(1 - half * half)) : row->normal.max * degree;
     return (exact * (1 + DP_ROUNDINGS32_14) + turned(row->layout, how) * DP_UNIT * (1 + 0x1p-10)) / degree;
 }

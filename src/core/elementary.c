@@ -372,6 +372,10 @@ double dp_tan(double x) {
     return t.hi + t.lo;
 }
 
+double dp_half_tangent(double fov) {
+    return dp_tan(0.5 * fov * DP_DEGREE);
+}
+
 /* atan(y/x), 0 <= y <= x, x > 0: from the nearest of 0, 1/4, ..., 1. Good to 2^-57. */
 static dp_pair slope_angle(double y, double x) {
     static const dp_pair known[] = {{0.0, 0.0},

@@ -29,6 +29,11 @@ double dp_sin(double x);
 double dp_cos(double x);
 double dp_tan(double x);
 
+#define DP_DEGREE 0x1.1df46a2529d39p-6 /* in radians */
+
+/* tan(fov/2) of a field of view in degrees: half of what a picture spans, at a depth of 1. */
+double dp_half_tangent(double fov);
+
 /* 0.54 units; dp_asin() 3.1 */
 double dp_atan(double x);
 double dp_atan2(double y, double x);

@@ -7,8 +7,6 @@
 #include "core/extremes.h"
 #include "core/rounding.h"
 
-static const double degree = 0x1.1df46a2529d39p-6;
-
 /* For roundings of what is rounded already. */
 static const double second_order = 1.0 + 0x1p-10;
 
@@ -46,12 +44,8 @@ dp_triangles dp_triangles_default(void) {
                           .slim = 16.0};
 }
 
-static double half_tangent(double degrees) {
-    return dp_tan(0.5 * degrees * degree);
-}
-
 double dp_fov_vertical(double fov_x, int width, int height) {
-    return 2.0 * dp_atan(half_tangent(fov_x) * height / width) / degree;
+    return 2.0 * dp_atan(dp_half_tangent(fov_x) * height / width) / DP_DEGREE;
 }
 
 static int within(double x, double lo, double hi) {
@@ -68,7 +62,7 @@ const char *dp_triangles_fault(const dp_triangles *t) {
         const char *sentence;
     } rules[] = {
         {within(t->width, 1, 32768) && within(t->height, 1, 32768), "viewport must have sides from 1 to 32768 pixels"},
-        {within(t->fov_y, 0.001, 179.9), "fov must be from 0.001 to 179.9 degrees"},
+        {within(t->fov_y, DP_FOV_LEAST, DP_FOV_MOST), "fov must be from 0.001 to 179.9 degrees"},
         {within(t->subpixel, 0, 8), "subpixel must be from 0 to 8 bits"},
         {within(p->value, 0, most) && within(p->box, 0, most) && within(p->range, 0, most) &&
              within(p->origin, 0, most),
@@ -98,7 +92,7 @@ static double worst_slant(const dp_slant *s, double per_sine, double per_cosine)
 }
 
 dp_slant dp_slant_make(const dp_triangles *t) {
-    const double y = half_tangent(t->fov_y);
+    const double y = dp_half_tangent(t->fov_y);
     const double pixel = 2.0 * y / t->height;
     const double x = 0.5 * pixel * t->width;
     const double off = pixel * t->pixels;
@@ -111,8 +105,8 @@ dp_slant dp_slant_make(const dp_triangles *t) {
                   .box = 0.5 + 0.5 * dp_hypot(t->slim, 1.0),
                   .snap = snap,
                   .snapped = dp_hypot(snap, snap),
-                  .lo = t->slant_lo * degree,
-                  .hi = t->slant_hi * degree};
+                  .lo = t->slant_lo * DP_DEGREE,
+                  .hi = t->slant_hi * DP_DEGREE};
     const double longest = worst_slant(&s, s.ray, 1.0);
     s.longest = dp_sin(longest) * s.ray + dp_cos(longest);
     return s;

@@ -39,7 +39,7 @@ static strip strip_of(size_t index) {
 
 /* Planes that face the line of sight in turn with slanted ones. */
 static void normal_of(const texture_camera *camera, const strip *s, size_t index, double normal[3]) {
-    const double tilt = index % 3 == 0 ? 0 : STEEPEST * M_PI / 180 * method_unit(23, index);
+    const double tilt = index % 3 == 0 ? 0 : STEEPEST * DP_DEGREE * method_unit(23, index);
     const double turn = 2 * M_PI * method_unit(24, index);
     const double x = camera_slope_x(camera, s->column + METHOD_STRIP / 2), y = camera_slope_y(camera, s->row);
     /* The line of sight (x, y, 1) and two directions across it. */

@@ -13,7 +13,7 @@
 
 raster_status draw_camera_init(draw_camera *camera, const raster_row *row, const dp_setup *setup) {
     const dp_triangles *view = &setup->spec.triangles;
-    const double half = dp_tan(view->fov_y * M_PI / 360.0);
+    const double half = dp_half_tangent(view->fov_y);
     size_t index = 0;
     camera->bias = NULL;
     camera->bias_of = NULL;

@@ -52,9 +52,9 @@ static bool random_pair(const draw_fight_request *r, const draw_fight_band *band
     const int y = (int)(draw_random(state) % (uint64_t)r->camera->target.height);
     const double window[2] = {x + 0.5, y + 0.5};
     const double any = 360.0 * draw_uniform(state);
-    const double azimuth = (isnan(r->azimuth) ? any : r->azimuth) * M_PI / 180.0;
+    const double azimuth = (isnan(r->azimuth) ? any : r->azimuth) * DP_DEGREE;
     out->slant = t->slant_lo + (t->slant_hi - t->slant_lo) * draw_uniform(state);
-    const double angle = out->slant * M_PI / 180.0, z = draw_log_uniform(state, band->lo, band->hi);
+    const double angle = out->slant * DP_DEGREE, z = draw_log_uniform(state, band->lo, band->hi);
     out->plane =
         (draw_plane){.normal = {dp_sin(angle) * dp_cos(azimuth), dp_sin(angle) * dp_sin(azimuth), dp_cos(angle)}};
     for (int k = 0; k < 2; k++)

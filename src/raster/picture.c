@@ -159,7 +159,7 @@ static const char *make_setups(draw_picture *p, const dp_spec *asked, const rast
 
 /* How large the scene is drawn, so that it fills the middle of the target and no triangle is larger than the class. */
 static double scale_of(const dp_triangles *view) {
-    const double pixel = 2.0 * dp_tan(view->fov_y * M_PI / 360.0) / view->height;
+    const double pixel = 2.0 * dp_half_tangent(view->fov_y) / view->height;
     return fmin(1.0, across * pixel);
 }
 

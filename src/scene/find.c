@@ -183,7 +183,7 @@ finder_status finder_find(const model *m, const finder_asked *asked, finder_foun
     if (!in_range(asked->gap, FINDER_COORDINATE_MAX) || !in_range(asked->angle, FINDER_ANGLE_MAX) ||
         !in_range(asked->width, FINDER_COORDINATE_MAX) || !measure_box(&s))
         return FINDER_RANGE;
-    s.sine = dp_sin(asked->angle * (M_PI / 180.0));
+    s.sine = dp_sin(asked->angle * DP_DEGREE);
     s.found.extent = s.extent;
     finder_status status = pairs_find(&s);
     if (status == FINDER_DONE && s.found.pairs > 0 && (asked->off >> FINDER_HIDDEN & 1) == 0)

@@ -21,8 +21,6 @@ static const double turned = 0x1p-8;
 /* A lift grows beyond what it lacks by this share of it. */
 static const double spare = 0x1p-7;
 
-static const double degrees = 180.0 / 3.14159265358979323846;
-
 /* ---- The view ---------------------------------------------------------------------------------------------------- */
 
 /* Tangents of half the view, to the right and upwards. */
@@ -31,7 +29,7 @@ typedef struct view {
 } view;
 
 static view view_of(const dp_triangles *t) {
-    const double up = dp_tan(0.5 * t->fov_y / degrees);
+    const double up = dp_half_tangent(t->fov_y);
     return (view){up * t->width / t->height, up};
 }
 
@@ -184,7 +182,7 @@ static bool include(const pair *p, int i, const dp_setup *setup, const scene_eye
     }
     const draw_shape shape = draw_shape_of(window, t->subpixel);
     const double upright = fmin(fabs(dot(p->normal[i], eye->ahead)), 1.0);
-    const double slant = dp_atan2(sqrt(1.0 - upright * upright), upright) * degrees;
+    const double slant = dp_atan2(sqrt(1.0 - upright * upright), upright) / DP_DEGREE;
     t->pixels = fmax(t->pixels, shape.pixels);
     t->slim = fmax(t->slim, shape.slim);
     t->slant_lo = fmin(t->slant_lo, fmax(slant - 0.001, 0.0));

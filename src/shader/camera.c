@@ -6,8 +6,6 @@
 
 #include "core/elementary.h"
 
-static const double DEGREE = M_PI / 180;
-
 camera_spec camera_spec_default(void) {
     return (camera_spec){.fov_y = 60, .half_height = 5};
 }
@@ -17,8 +15,8 @@ bool camera_look(camera_spec *spec, const double at[3]) {
     for (int i = 0; i < 3; i++)
         ahead[i] = at[i] - spec->origin[i];
     const double across = dp_hypot(ahead[0], ahead[2]);
-    spec->yaw = dp_atan2(ahead[0], ahead[2]) / DEGREE;
-    spec->pitch = dp_atan2(ahead[1], across) / DEGREE;
+    spec->yaw = dp_atan2(ahead[0], ahead[2]) / DP_DEGREE;
+    spec->pitch = dp_atan2(ahead[1], across) / DP_DEGREE;
     return across > 0 || ahead[1] != 0;
 }
 
@@ -73,9 +71,9 @@ const char *camera_init(texture_camera *camera, const dp_setup *setup, const cam
         return error;
     if (setup->spec.zfar > 1e18 && !isinf(setup->spec.zfar))
         return "far must be at most 1e18, or inf: shaders multiply places with each other, and binary32 ends at 3.4e38";
-    const double half_height = ortho ? spec->half_height : dp_tan(spec->fov_y * DEGREE / 2);
-    const double sy = dp_sin(spec->yaw * DEGREE), cy = dp_cos(spec->yaw * DEGREE);
-    const double sp = dp_sin(spec->pitch * DEGREE), cp = dp_cos(spec->pitch * DEGREE);
+    const double half_height = ortho ? spec->half_height : dp_half_tangent(spec->fov_y);
+    const double sy = dp_sin(spec->yaw * DP_DEGREE), cy = dp_cos(spec->yaw * DP_DEGREE);
+    const double sp = dp_sin(spec->pitch * DP_DEGREE), cp = dp_cos(spec->pitch * DP_DEGREE);
     *camera = (texture_camera){
         .setup = *setup,
         .width = spec->width,

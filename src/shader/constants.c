@@ -154,7 +154,7 @@ static double perspective_of_oblique(const dp_setup *s, const trap_depth *at) {
 /* Half way it is cos(apart/2) long, and EncodeViewNormalStereo divides n.xy by 1 + n.z: the tangent of half the angle.
  */
 static double of_short_normal(double off, double apart) {
-    const double degree = M_PI / 180, length = dp_cos(apart / 2 * degree), theta = off * degree;
+    const double degree = DP_DEGREE, length = dp_cos(apart / 2 * degree), theta = off * degree;
     return off - 2 * dp_atan(length * dp_sin(theta) / (1 + length * dp_cos(theta))) / degree;
 }
 

@@ -111,7 +111,7 @@ void velocity_vector(const effect_pixel *pixel, const float *p, float out[2]) {
 
 /* The decal's matrix: from world places to its unit box. Row k is its axis over its size there. */
 static void decal_matrix(const double p[PARAMETERS_MAX], double m[3][4]) {
-    const double turn = p[DECAL_YAW] * (M_PI / 180), c = dp_cos(turn), s = dp_sin(turn);
+    const double turn = p[DECAL_YAW] * DP_DEGREE, c = dp_cos(turn), s = dp_sin(turn);
     const double axes[3][3] = {{c, 0, -s}, {0, 1, 0}, {s, 0, c}};
     for (int k = 0; k < 3; k++) {
         m[k][3] = 0;

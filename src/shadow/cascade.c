@@ -22,7 +22,7 @@ static bool within(double x, double lo, double hi) {
 
 shadow_status shadow_split_check(const shadow_split *s) {
     const bool planes = s->znear >= 1e-12 && s->znear < s->zfar && s->zfar <= 1e12;
-    const bool view = within(s->fov_y, 0.001, 179.9) && within(s->aspect, 0.001, 1000.0);
+    const bool view = within(s->fov_y, DP_FOV_LEAST, DP_FOV_MOST) && within(s->aspect, 0.001, 1000.0);
     const bool parts = within(s->count, 1, SHADOW_CASCADES_MAX) && within(s->lambda, 0.0, 1.0);
     return planes && view && parts && within(s->casters, 0.0, 1e12) ? SHADOW_OK : SHADOW_CASCADES;
 }
@@ -38,7 +38,7 @@ static double split_at(const shadow_split *s, int index) {
 /* The smallest sphere about the eight corners: its centre is where near and far ones are equally far, or at the far
  * end. */
 static void bound(const shadow_split *s, shadow_cascade *c) {
-    const double tangent = dp_tan(s->fov_y * (3.14159265358979323846 / 360.0));
+    const double tangent = dp_half_tangent(s->fov_y);
     const double corner = tangent * dp_hypot(s->aspect, 1.0);
     c->centre = fmin(0.5 * (c->from + c->to) * (1.0 + corner * corner), c->to);
     c->radius = dp_hypot(c->to - c->centre, c->to * corner);

@@ -47,7 +47,7 @@ static double depth_rounded(const shadow_light *light, double z, double q, doubl
 static ground lamp_ground(const shadow_light *light, double z) {
     const dp_setup *setup = &light->setup;
     const dp_triangles *t = &light->triangles;
-    const double h = dp_tan(shadow_radians(0.5 * light->fov)), corner = dp_hypot(1.0, root2 * h);
+    const double h = dp_half_tangent(light->fov), corner = dp_hypot(1.0, root2 * h);
     const double nearest = fmax(z / t->depth, setup->spec.znear); /* of vertices */
     const bool half = dp_mapping_get(setup->spec.mapping)->ndc_signed != 0, distance = shadow_holds_distance(light);
     const bool falls = !distance && setup->reversed && !half; /* what is far is near 0 */

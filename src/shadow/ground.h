@@ -3,12 +3,13 @@
 #ifndef SHADOW_GROUND_H
 #define SHADOW_GROUND_H
 
+#include "core/elementary.h"
 #include "shadow/shadow.h"
 
 #define SHADOW_HALF_TURN 3.14159265358979323846
 
 static inline double shadow_radians(double degrees) {
-    return degrees * (SHADOW_HALF_TURN / 180.0);
+    return degrees * DP_DEGREE;
 }
 
 /* Positions are of scene units, sizes of texels, depths of window depth. */

@@ -26,7 +26,7 @@ static double window_off(const dp_setup *camera, double z) {
 
 double shadow_rebuilt(const dp_setup *camera, double lo, double hi, double world) {
     const dp_triangles *t = &camera->spec.triangles;
-    const double hy = dp_tan(0.5 * t->fov_y * (3.14159265358979323846 / 180.0)), hx = hy * t->width / t->height;
+    const double hy = dp_half_tangent(t->fov_y), hx = hy * t->width / t->height;
     const double corner = sqrt(1.0 + hx * hx + hy * hy), q = sqrt(3.0) * world;
     const double per = dp_mapping_get(camera->spec.mapping)->ndc_signed != 0 ? 0.5 : 1.0;
     const double y = window_off(camera, hi) * hi / (per * fabs((double)camera->matrix[1]));

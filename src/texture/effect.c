@@ -211,7 +211,7 @@ static double exact_corners(const work *w, uint32_t x) {
 static double normal_reach(const work *w, const tap *at) {
     const frame_normals *normals = w->in->frame->normals;
     const size_t pixel = pixel_of(w, at);
-    const double off = normals->off != NULL ? normals->off[pixel] * M_PI / 180 / FRAME_NORMAL_DEGREE : 0;
+    const double off = normals->off != NULL ? normals->off[pixel] * DP_DEGREE / FRAME_NORMAL_DEGREE : 0;
     return packing_normal_reach(normals->texels + 2 * pixel, normals->truncated) + M_SQRT2 * 2 * dp_sin(off / 2);
 }
 

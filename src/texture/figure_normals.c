@@ -26,7 +26,7 @@ static bool middle(const dp_setup *setup, texture_camera *camera) {
     camera_spec spec = camera_spec_default();
     const double share = (double)SIDE / LINES;
     spec.width = spec.height = SIDE;
-    spec.fov_y = 2 * dp_atan(dp_tan(spec.fov_y / 2 * M_PI / 180) * share) * 180 / M_PI;
+    spec.fov_y = 2 * dp_atan(dp_half_tangent(spec.fov_y) * share) / DP_DEGREE;
     spec.half_height *= share;
     return camera_init(camera, setup, &spec) == NULL;
 }

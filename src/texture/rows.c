@@ -5,9 +5,10 @@
 #include <string.h>
 
 #include "core/clones.h"
+#include "core/elementary.h"
 #include "shader/normal_corner.h"
 
-static const double TO_DEGREES = 180 / M_PI;
+static const double TO_DEGREES = 1 / DP_DEGREE;
 
 static const texture_camera *camera_of(const frame_row *in) {
     return in->frame->camera;

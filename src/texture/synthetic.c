@@ -7,7 +7,6 @@
 
 #define LENGTH "scene units", 1e-9, 1e15
 
-static const double DEGREE = M_PI / 180;
 static const synthetic_hit SKY = {.z = INFINITY};
 
 static bool drawn(const texture_camera *c, double z) {
@@ -37,7 +36,7 @@ enum { PLANE_DISTANCE, PLANE_TILT, PLANE_TURN };
 
 /* The plane goes through (0, 0, distance): n . p = n_z distance. */
 static void plane_hit(const texture_camera *c, const double *p, double column, double row, synthetic_hit *out) {
-    const double tilt = p[PLANE_TILT] * DEGREE, turn = p[PLANE_TURN] * DEGREE;
+    const double tilt = p[PLANE_TILT] * DP_DEGREE, turn = p[PLANE_TURN] * DP_DEGREE;
     const double n[3] = {dp_cos(tilt) * dp_sin(turn), dp_sin(tilt), -dp_cos(tilt) * dp_cos(turn)};
     const double side = n[0] * camera_slope_x(c, column) + n[1] * camera_slope_y(c, row);
     const double z = c->ortho ? p[PLANE_DISTANCE] - side / n[2] : n[2] * p[PLANE_DISTANCE] / (side + n[2]);

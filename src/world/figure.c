@@ -17,7 +17,7 @@
 enum { POINTS = 241 };
 
 static const double ahead = 10.0; /* metres, where it is known what a scene unit is */
-static const double nearest = 100.0, farthest = 1e8, degree = 0.017453292519943295;
+static const double nearest = 100.0, farthest = 1e8;
 
 /* A length in metres, in scene units; as it is where nobody says what they are. */
 static double of_metres(const chart *c, double length) {
@@ -72,7 +72,7 @@ static chart_panel *add_panel(chart *out, const char *title) {
 const char *world_build(const figure_request *request, chart *out) {
     const dp_triangles view = dp_triangles_default();
     const dp_setup facing = dp_setup_facing(&request->setups[0]);
-    const double half = dp_tan(0.5 * degree * view.fov_y), z = isnan(request->at) ? of_metres(out, ahead) : request->at;
+    const double half = dp_half_tangent(view.fov_y), z = isnan(request->at) ? of_metres(out, ahead) : request->at;
     const world_asked a = {.setup = &facing,
                            .z = z,
                            .ray_ratio = dp_hypot(1.0, half * dp_hypot(1.0, (double)view.width / view.height)),

@@ -70,7 +70,7 @@ static int at_most(int x, int most) {
 }
 
 static void set_stage(stage *s, const figure_request *request) {
-    const double slant = request->slant * M_PI / 180.0, azimuth = request->azimuth * M_PI / 180.0;
+    const double slant = request->slant * DP_DEGREE, azimuth = request->azimuth * DP_DEGREE;
     const int width = s->camera.target.width, height = s->camera.target.height;
     const int columns = at_most(COLUMNS, (width + 1) / 2), rows = at_most(ROWS, (height + 1) / 2);
     s->z = isnan(request->at) ? sqrt(s->setup->spec.znear * fmin(s->setup->spec.zfar, 1e6 * s->setup->spec.znear))

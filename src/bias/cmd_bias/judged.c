@@ -67,7 +67,7 @@ bias_pushed bias_pushed_of(const dp_setup *setup, const bias_state *state, const
     if (!isnan(enough.units))
         p.least = -bias_at(setup, &enough, 0.0, most.z).shift + 0.0; /* no -0 */
     if (t->width > 0) {
-        const double pixel = 2.0 * dp_tan(t->fov_y * M_PI / 360.0) / t->height * most.z;
+        const double pixel = 2.0 * dp_half_tangent(t->fov_y) / t->height * most.z;
         p.degrees = dp_atan(fabs(most.shift) / pixel) * 180.0 / M_PI;
     }
     return p;

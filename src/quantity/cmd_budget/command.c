@@ -93,8 +93,7 @@ static unsigned conditions(const budget *b) {
 /* No place is farther from the camera than this times its eye depth: within 60 degrees of the axis, and all vertices of
  * triangles that the picture shows some of. */
 static double ray_ratio_of(const dp_triangles *t) {
-    static const double degree = 0.017453292519943295;
-    const double pixel = t->width > 0 ? 2.0 * dp_tan(0.5 * degree * t->fov_y) / t->height : 0.0;
+    const double pixel = t->width > 0 ? 2.0 * dp_half_tangent(t->fov_y) / t->height : 0.0;
     return fmax(2.0, dp_hypot(1.0, pixel * dp_hypot(0.5 * t->width + t->pixels, 0.5 * t->height + t->pixels)));
 }
 

@@ -81,7 +81,7 @@ static void write_added(shadow_set *w, int k, const shadow_light *light) {
 /* Rows of one depth of a light that has a place. */
 static void place_row(const shadow_maps *maps, const shadow_light *light, const bias_api *api, shadow_row *r) {
     const dp_format *format = &light->setup.spec.format;
-    const double angle = light->triangles.slant_hi * (3.14159265358979323846 / 180.0);
+    const double angle = light->triangles.slant_hi * DP_DEGREE;
     const bool distance = shadow_holds_distance(light);
     shadow_need need, here;
     shadow_need_of(&maps->whole, &need);

@@ -7,8 +7,6 @@
 #include "texture/cmd_texture/request.h"
 #include "texture/cmd_texture/texture.h"
 
-static const double DEGREE = M_PI / 180;
-
 static void name_edges(texture_matrix *t) {
     const dp_projection *p = &t->taken;
     t->oblique = p->oblique != 0;
@@ -16,7 +14,7 @@ static void name_edges(texture_matrix *t) {
     for (int i = 0; i < 4; i++)
         t->edges[i] = ((i % 2 != 0 ? 1 : -1) - p->centre[i / 2]) * p->half[i / 2];
     for (int k = 0; k < 2; k++)
-        t->fov[k] = p->ortho ? (double)NAN : (dp_atan(t->edges[2 * k + 1]) - dp_atan(t->edges[2 * k])) / DEGREE;
+        t->fov[k] = p->ortho ? (double)NAN : (dp_atan(t->edges[2 * k + 1]) - dp_atan(t->edges[2 * k])) / DP_DEGREE;
 }
 
 void texture_intrinsics_take(const double intrinsics[4], const double size[2], texture_matrix *t) {

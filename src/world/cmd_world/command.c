@@ -16,7 +16,7 @@
 enum { DIGITS = 3 };
 enum { AT_DISTANCE = 1, LABEL_SIZE = 48 };
 
-static const double degree = 0.017453292519943295, one_pixel = 1.0;
+static const double one_pixel = 1.0;
 
 /* A scheme, at the distance at hand where there is one. */
 typedef struct line {
@@ -252,7 +252,7 @@ static void take_view(world *w) {
     w->height = t->width > 0 ? t->height : standard.height;
     w->fov = t->width > 0 ? t->fov_y : standard.fov_y;
     *t = (dp_triangles){0};
-    const double half = dp_tan(0.5 * degree * w->fov);
+    const double half = dp_half_tangent(w->fov);
     w->asked = (world_asked){.z = w->z,
                              .ray_ratio = dp_hypot(1.0, half * dp_hypot(1.0, (double)w->width / w->height)),
                              .pixels = 0.5 * w->height / half,
