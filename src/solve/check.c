@@ -9,9 +9,6 @@
 #include "solve/biased.h"
 #include "world/reach.h"
 
-/* A limit that the exact lattice misses by this factor, no arithmetic can save: see check.h. */
-static const double refusal_factor = 4.0;
-
 const char *check_method_name(check_method method) {
     static const char *const names[CHECK_METHOD_COUNT] = {
         [CHECK_LATTICE] = "lattice", [CHECK_STAGED] = "staged lattice", [CHECK_GUARANTEE] = "guarantee",
@@ -51,30 +48,33 @@ static void judge_world(const need *n, const need_camera *camera, const dp_setup
     v->passed = n->limit >= v->value;
 }
 
-static void judge_separation(const need *n, const need_camera *camera, const dp_setup *asked, check_verdict *v) {
+/* Whether the lattice exceeds the limit at a depth: then so does every model's separation, which is never below it. */
+static bool is_refused_by_lattice(const need *n, const dp_setup *asked, check_verdict *v) {
     dp_setup setup;
+    if (!dp_setup_in(asked, DP_MODEL_EXACT, &setup))
+        return false;
+    judge_in(n, &setup, v);
+    return !v->passed && !(dp_separation(&setup, v->z) <= n->limit);
+}
+
+static void judge_separation(const need *n, const need_camera *camera, const dp_setup *asked, check_verdict *v) {
     if (camera->world > 0.0) {
         judge_world(n, camera, asked, v);
         return;
     }
     const bool heavy = camera->automatic || dp_is_computed(asked);
-    if (!heavy || !dp_setup_in(asked, DP_MODEL_EXACT, &setup)) {
-        judge_in(n, asked, v);
+    if (heavy && is_refused_by_lattice(n, asked, v))
         return;
-    }
-    judge_in(n, &setup, v);
-    if (v->value > (camera->automatic ? 1.0 : refusal_factor) * n->limit)
-        return;
-    setup = dp_setup_guaranteed(asked);
+    const dp_setup setup = heavy ? dp_setup_guaranteed(asked) : *asked;
     judge_in(n, &setup, v);
 }
 
+/* In no model are errors always below another's: rounded once more, a depth may come nearer to a code. */
 static void judge_error(const need *n, const need_camera *camera, const dp_setup *asked, check_verdict *v) {
-    const dp_setup full = dp_setup_guaranteed(asked);
-    dp_setup setup;
-    judge_in(n, asked, v);
-    if (camera->automatic && v->passed && dp_setup_in(asked, DP_MODEL_STAGED, &setup))
-        judge_in(n, full.shader ? &full : &setup, v);
+    dp_setup setup = dp_setup_guaranteed(asked);
+    if (!camera->automatic || (!setup.shader && !dp_setup_in(asked, DP_MODEL_STAGED, &setup)))
+        setup = *asked;
+    judge_in(n, &setup, v);
 }
 
 /* Whether the guarantee holds between any two neighbours: then nothing ties. Binade by binade, as the step of z, which

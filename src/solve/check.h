@@ -2,14 +2,17 @@
 /**
  * @file check.h  Requirements judged: a verdict each, found with the cheapest analysis that can decide.
  *
- *     separation  the largest dp_separation() at the depths asked about. Model float: the guaranteed separation; exact
- *                 first, which passes nothing but refuses what no arithmetic can save. Model auto: the lattice alone
- *                 where it refuses, else the guaranteed separation. That of slanted surfaces where the camera says
- *                 what draws them; the other two are of depths at a point.
- *     error       dp_worst_over(), or the error at a single depth
+ *     separation  the largest dp_separation() at the depths asked about, of slanted surfaces where the camera says
+ *                 what draws them. Models float and auto judge alike: the lattice first, which passes nothing, but no
+ *                 model's separation is below it, so that it refuses what they refuse; then the guarantee.
+ *
+ *     error       dp_worst_over(), or the error at a single depth; model auto: in the model staged, or of the shader
+ *
  *     bias        bias_judge(), facing the camera and, where the camera says what draws surfaces, at any slant or for
- * the slope that is given ties        none for certain where the guarantee is below one binary32 step of z; else
- * counted, depth by depth, or drawn at random where the range holds more than CHECK_CENSUS_MAX depths
+ *                 the slope that is given
+ *
+ *     ties        none for certain where the guarantee is below one binary32 step of z; else counted, depth by depth,
+ *                 or drawn at random where the range holds more than CHECK_CENSUS_MAX depths
  */
 #ifndef SOLVE_CHECK_H
 #define SOLVE_CHECK_H

@@ -235,12 +235,13 @@ TEST(the_quick_model_first) {
         {"exact", "at = 100; separation = 0.01;", CHECK_LATTICE, true},
         {"staged", "at = 100; separation = 0.01;", CHECK_STAGED, false},
         {"float", "at = 100; separation = 0.001;", CHECK_LATTICE, false}, /* the lattice alone has 0.006 */
-        {"float", "at = 100; separation = 0.004;", CHECK_GUARANTEE, false},
+        {"float", "at = 100; separation = 0.004;", CHECK_LATTICE, false},
+        {"float", "at = 100; separation = 0.0062;", CHECK_GUARANTEE, false},
         {"float", "at = 100; separation = 0.1;", CHECK_GUARANTEE, true},
         {"auto", "at = 100; separation = 0.004;", CHECK_LATTICE, false},
         {"auto", "at = 100; separation = 0.0062;", CHECK_GUARANTEE, false}, /* 0.0066 with the arithmetic */
         {"auto", "at = 100; separation = 0.1;", CHECK_GUARANTEE, true},
-        {"auto", "at = 100; error = 1e-9;", CHECK_LATTICE, false},
+        {"auto", "at = 100; error = 1e-9;", CHECK_STAGED, false},
         {"auto", "at = 100; error = 1;", CHECK_STAGED, true},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
@@ -252,6 +253,111 @@ TEST(the_quick_model_first) {
             fail_msg("%s, %s: %s, %g", cases[i].model, cases[i].what, check_method_name(v->method), v->value);
         done(&j);
     }
+}
+
+/* What a random camera of the fullest model is asked, beside the verdict of that model, computed by itself. */
+typedef struct alike {
+    tally verdicts, nested, errors;
+    int passed, failed, by_lattice, below_staged;
+} alike;
+
+static void separations_alike(alike *a, const char *camera, double lo, double hi, rng *r) {
+    static const char *const asked[] = {"", " model = \"auto\";", " model = \"float\";"};
+    char with[512], what[128];
+    snprintf(with, sizeof with, "%s%s", camera, asked[rng_below(r, strstr(camera, "linear") == NULL ? 3 : 2)]);
+    snprintf(what, sizeof what, "at = %.17e; separation = 1;", lo);
+    judged j = judge_one(with, what);
+    dp_setup exact, staged, full = dp_setup_guaranteed(&j.verdicts[0].camera->setups[0]);
+    dp_spec spec = full.spec;
+    spec.model = DP_MODEL_EXACT;
+    spec.triangles.width = 0;
+    assert_int_equal(dp_setup_init(&exact, &spec), DP_OK);
+    spec.model = DP_MODEL_STAGED;
+    assert_int_equal(dp_setup_init(&staged, &spec), DP_OK);
+    done(&j);
+    dp_separation_worst lattice = {.bound = 0}, worst = {.bound = 0};
+    const double at[] = {lo, hi, rng_log(r, lo, hi), rng_uniform(r, lo, hi)};
+    for (int i = 0; i < 4; i++) {
+        const double z = fmin(fmax(at[i], lo), hi);
+        const double of_lattice = dp_separation(&exact, z), of_staged = dp_separation(&staged, z);
+        TALLY(&a->nested, fmin(dp_separation(&full, z), of_staged) >= of_lattice, "%s z = %a", with, z);
+        a->below_staged += dp_separation(&full, z) < of_staged;
+    }
+    assert_int_equal(dp_separation_over(&exact, lo, hi, 0.0, &lattice), DP_OK);
+    const double limit = lattice.separation * rng_log(r, 0.5, 8.0); /* about where the models differ */
+    if (!isfinite(limit))
+        return;
+    assert_int_equal(dp_separation_over(&full, lo, hi, limit, &worst), DP_OK);
+    const bool passes = (lo < hi ? worst.bound : dp_separation(&full, lo)) <= limit;
+    snprintf(what, sizeof what, "range = [%.17e, %.17e]; separation = %.17e;", lo, hi, limit);
+    if (lo == hi)
+        snprintf(what, sizeof what, "at = %.17e; separation = %.17e;", lo, limit);
+    j = judge_one(with, what);
+    TALLY(&a->verdicts, j.verdicts[0].passed == passes, "%s %s: %d, %g", with, what, passes, worst.bound);
+    a->passed += passes;
+    a->failed += !passes;
+    a->by_lattice += j.verdicts[0].method == CHECK_LATTICE;
+    assert_true(j.verdicts[0].method == CHECK_GUARANTEE || j.verdicts[0].method == CHECK_STAGED || !passes);
+    done(&j);
+}
+
+/* Errors of the model auto are those of staged, which is named here; of a logarithm those of its shader. */
+static void errors_alike(alike *a, const char *camera, double lo, double hi, rng *r) {
+    char with[512], named[512], what[128], at[64];
+    snprintf(with, sizeof with, "%s model = \"auto\";", camera);
+    snprintf(named, sizeof named, "%s model = \"%s\";", camera, strstr(camera, "\"log\"") != NULL ? "float" : "staged");
+    snprintf(at, sizeof at, lo < hi ? "range = [%.17e, %.17e];" : "at = %.17e;", lo, hi);
+    snprintf(what, sizeof what, "%s error = 1;", at);
+    judged j = judge_one(named, what);
+    const double limit = j.verdicts[0].value * rng_log(r, 0.25, 4.0);
+    done(&j);
+    if (!(limit > 0.0 && isfinite(limit)))
+        return;
+    snprintf(what, sizeof what, "%s error = %.17e;", at, limit);
+    judged one = judge_one(with, what), other = judge_one(named, what);
+    TALLY(&a->errors,
+          one.verdicts[0].passed == other.verdicts[0].passed && one.verdicts[0].value == other.verdicts[0].value,
+          "%s %s: %g, %g", with, what, one.verdicts[0].value, other.verdicts[0].value);
+    done(&one);
+    done(&other);
+}
+
+/*
+ * Nobody's verdict depends on which model was tried first: a file's camera without a word, with auto and with float
+ * gets that of the fullest model, computed outright. For the lattice is below every model at each depth.
+ */
+TEST(each_model_outright) {
+    static const char *const views[] = {"", "", " rounding = \"zero\";",
+                                        " viewport = [1920, 1080]; raster = \"llvmpipe\"; fov = 60;",
+                                        " viewport = [640, 480]; subpixel = 8; fov = 20; slant = [60, 85];"};
+    static const char *const ariths[] = {"ieee", "fused", "reciprocal", "product", "mesa", "nvidia", "ieee-remap"};
+    alike a = {.verdicts = {.name = "the verdict is that of the fullest model"},
+               .nested = {.name = "no model resolves less than the lattice"},
+               .errors = {.name = "an error's verdict is that of the model that is named"}};
+    rng r = rng_make("check each model");
+    for (uint64_t i = 0; i < test_cases(120, 800, 20000); i++) {
+        char camera[320], far[40];
+        const size_t mapping = rng_below(&r, 6);
+        const double znear = rng_log(&r, 0.01, 10.0), zfar = znear * rng_log(&r, 2.0, 1e6);
+        const double lo = fmin(fmax(rng_log(&r, znear, zfar), znear), zfar);
+        const double hi = rng_below(&r, 3) == 0 ? lo : fmin(fmax(rng_log(&r, lo, zfar), lo), zfar);
+        const bool flat = mapping < 4 && rng_below(&r, 6) == 0;
+        const bool endless = mapping < 4 && !flat && rng_below(&r, 6) == 0;
+        snprintf(far, sizeof far, endless ? "\"inf\"" : "%.17e", zfar);
+        snprintf(camera, sizeof camera, "near = %.17e; far = %s; mapping = \"%s\"; format = \"%s\";%s", znear, far,
+                 mappings[mapping], formats[rng_below(&r, 4)], flat ? " ortho = true;" : "");
+        errors_alike(&a, camera, lo, hi, &r);
+        if (!flat && mapping < 4)
+            strcat(camera, views[rng_below(&r, 5)]);
+        if (mapping < 4 && strstr(camera, "viewport") == NULL)
+            snprintf(camera + strlen(camera), sizeof camera - strlen(camera), " arith = \"%s\";",
+                     ariths[rng_below(&r, 7)]);
+        separations_alike(&a, camera, lo, hi, &r);
+    }
+    assert_true(a.passed > 20 && a.failed > 20 && a.by_lattice > 20 && a.below_staged > 0);
+    tally_end(&a.verdicts);
+    tally_end(&a.nested);
+    tally_end(&a.errors);
 }
 
 /* A bias: what is met, by numbers that test_bias_verdict has proven; D24 by hand. */
