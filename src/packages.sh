@@ -17,7 +17,8 @@ esac
 if [ "$how" = left ]; then
     left=
     for job; do sh "$0" --missing "$job" >/dev/null 2>&1 || left="$left $job"; done
-    [ -z "$left" ] || echo "Left out, for want of programs: tests of$left. For each: sh src/packages.sh JOB; numpy: python3-numpy"
+    [ -z "$left" ] ||
+        echo "Left out, for want of programs: tests of$left. For each: sh src/packages.sh JOB; numpy: python3-numpy, types: python3-mypy"
     exit 0
 fi
 job=${1:-build}

@@ -141,7 +141,7 @@ check "a fresh machine gets what make lint calls" named lint lint 5
 check "a fresh machine gets what make windows calls" named windows windows 1
 
 left() { # a machine without programs lacks them all, one that has them nothing
-    [ "$(PATH=$scratch/none /bin/sh src/packages.sh --left docs npm)" = "Left out, for want of programs: tests of docs npm. For each: sh src/packages.sh JOB; numpy: python3-numpy" ] &&
+    [ "$(PATH=$scratch/none /bin/sh src/packages.sh --left docs npm)" = "Left out, for want of programs: tests of docs npm. For each: sh src/packages.sh JOB; numpy: python3-numpy, types: python3-mypy" ] &&
         empty env -u PKG_CONFIG_LIBDIR sh src/packages.sh --left check
 }
 check "what is left out is told, with what installs it" left

@@ -97,6 +97,15 @@ if python3 -c 'import numpy'; then
 else
     skip "the recipes run as they stand" "no numpy here"
 fi
+if python3 -c 'import mypy, numpy, sys; sys.exit(sys.version_info < (3, 11))'; then
+    types() { # they are of what is computed, and mypy knows the same, which refuses what is wrong
+        PYTHONPATH=$site python3 tests/python/typed.py "$scratch/asserted.py" &&
+            PYTHONPATH=$site python3 -m mypy --strict --warn-unused-ignores --cache-dir "$scratch/mypy" "$scratch/asserted.py"
+    }
+    check "types: of elements, shapes and keywords" types
+else
+    skip "types: of elements, shapes and keywords" "no mypy with numpy here, of Python 3.11 or later"
+fi
 if [ -n "${DEPTHPREC_FULL-}" ]; then
     check "it is built from its source archive" from_sources
 fi

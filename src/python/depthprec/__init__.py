@@ -28,6 +28,7 @@ __all__ = ["Camera", "Decoded", "Error", "Figure", "Worst", "bias", "check", "fo
 __version__ = _core.version().decode()
 
 Decoded = _namedtuple("Decoded", "z lo hi")
+Decoded.__class_getitem__ = classmethod(lambda cls, kind: cls)  # Decoded[float] of the stubs
 Decoded.__doc__ = "Eye depths, and the ends of the cells around them: what else the surface may be at."
 
 Worst = _namedtuple("Worst", "lo hi error error_z error_code interval interval_lo interval_hi interval_code blind_from "

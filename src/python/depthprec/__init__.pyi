@@ -1,29 +1,41 @@
 # SPDX-License-Identifier: MIT
+# Types of elements and shapes are numpy's: without numpy all of them are Any.
 import os
+from array import array
 from collections.abc import Mapping, Sequence
-from typing import Any, Literal, NamedTuple, overload
+from typing import Any, Final, Generic, Literal, NamedTuple, TypeVar, overload
 
-import numpy as np  # of whoever has it: without numpy these are Any
+import numpy as np
 from numpy.typing import NDArray
 
 _Model = Literal["exact", "staged", "float"]
 _Rounding = Literal["nearest", "even", "zero"]
 _Raster = Literal["spec-d3d", "spec-vulkan", "spec-gl"]
 _Layout = Literal["rows", "columns"]
-_Array = Any  # other memory of numbers: array.array, memoryview, a list; results are of the same kind and shape
-_Codes = NDArray[np.uint16] | NDArray[np.uint32]  # of formats of at most 16 bits, and others
-_Single = NDArray[np.float32] | NDArray[np.float16]
-_Wide = NDArray[np.float64] | NDArray[np.integer[Any]]
+_Path = str | os.PathLike[str]
+_Number = float | np.floating[Any] | np.integer[Any]
+_Lists = Sequence[float] | Sequence[Sequence[float]] | Sequence[Sequence[Sequence[float]]]
+_Whole = Sequence[int] | Sequence[Sequence[int]] | Sequence[Sequence[Sequence[int]]]
+
+_T = TypeVar("_T", covariant=True)
+_S = TypeVar("_S", bound=Any)  # the shape, which stays
+_Memory = TypeVar("_Memory", array[Any], memoryview)  # results are of the same kind
+_Out = TypeVar("_Out")
+_Code = np.dtype[np.uint16 | np.uint32]  # uint16 of formats of at most 16 bits
+_Narrow = np.dtype[np.float16 | np.float32]
+_Wide = np.dtype[np.float64 | np.integer[Any]]
+_F4 = np.dtype[np.float32]
+_F8 = np.dtype[np.float64]
 
 __version__: str
 
 class Error(ValueError):
     status: int
 
-class Decoded(NamedTuple):
-    z: Any
-    lo: Any
-    hi: Any
+class Decoded(NamedTuple, Generic[_T]):
+    z: _T
+    lo: _T
+    hi: _T
 
 class Worst(NamedTuple):
     lo: float
@@ -40,27 +52,27 @@ class Worst(NamedTuple):
     separation_z: float
 
 class Camera:
-    near: float
-    far: float
-    format: str
-    mapping: str
-    ortho: bool
-    rounding: _Rounding
-    model: _Model
-    arith: str
-    log_c: float
-    viewport: tuple[int, int] | None
-    fov: float
-    raster: _Raster | None
-    subpixel: int | None
-    slant: tuple[float, float]
-    triangle_class: tuple[float, float, float]
-    near_least: float
-    near_most: float
-    near_digits: int
-    far_least: float
-    far_most: float
-    far_digits: int
+    near: Final[float]
+    far: Final[float]
+    format: Final[str]
+    mapping: Final[str]
+    ortho: Final[bool]
+    rounding: Final[_Rounding]
+    model: Final[_Model]
+    arith: Final[str]
+    log_c: Final[float]
+    viewport: Final[tuple[int, int] | None]
+    fov: Final[float]
+    raster: Final[_Raster | None]
+    subpixel: Final[int | None]
+    slant: Final[tuple[float, float]]
+    triangle_class: Final[tuple[float, float, float]]
+    near_least: Final[float]
+    near_most: Final[float]
+    near_digits: Final[int]
+    far_least: Final[float]
+    far_most: Final[float]
+    far_digits: Final[int]
     @property
     def code_max(self) -> int: ...
     def __init__(
@@ -84,89 +96,206 @@ class Camera:
     ) -> None: ...
     @classmethod
     def from_matrix(
-        cls, matrix: _Array, mapping: str | None = None, *, layout: _Layout | None = None, **more: Any
+        cls,
+        matrix: NDArray[Any] | array[Any] | memoryview | _Lists,
+        mapping: str | None = None,
+        *,
+        layout: _Layout | None = None,
+        format: str = ...,
+        rounding: _Rounding = ...,
+        model: _Model = ...,
+        arith: str = ...,
+        log_c: float = ...,
+        viewport: tuple[int, int] | None = ...,
+        fov: float = ...,
+        raster: _Raster | None = ...,
+        subpixel: int | None = ...,
+        slant: tuple[float, float] = ...,
+        triangle_class: tuple[float, float, float] = ...,
     ) -> Camera: ...
     @classmethod
-    def preset(cls, name: str, *, unit: str | None = None, **more: Any) -> Camera: ...
-    def replace(self, **changes: Any) -> Camera: ...
+    def preset(
+        cls,
+        name: str,
+        *,
+        unit: str | None = None,
+        near: float = ...,
+        far: float = ...,
+        format: str = ...,
+        mapping: str = ...,
+        ortho: bool = ...,
+        rounding: _Rounding = ...,
+        model: _Model = ...,
+        arith: str = ...,
+        log_c: float = ...,
+        viewport: tuple[int, int] | None = ...,
+        fov: float = ...,
+        raster: _Raster | None = ...,
+        subpixel: int | None = ...,
+        slant: tuple[float, float] = ...,
+        triangle_class: tuple[float, float, float] = ...,
+    ) -> Camera: ...
+    def replace(
+        self,
+        *,
+        near: float = ...,
+        far: float = ...,
+        format: str = ...,
+        mapping: str = ...,
+        ortho: bool = ...,
+        rounding: _Rounding = ...,
+        model: _Model = ...,
+        arith: str = ...,
+        log_c: float = ...,
+        viewport: tuple[int, int] | None = ...,
+        fov: float = ...,
+        raster: _Raster | None = ...,
+        subpixel: int | None = ...,
+        slant: tuple[float, float] = ...,
+        triangle_class: tuple[float, float, float] = ...,
+    ) -> Camera: ...
     @overload
-    def encode(self, z: float, *, out: None = None) -> int: ...
+    def encode(self, z: _Number, *, out: None = None) -> int: ...
     @overload
-    def encode(self, z: NDArray[Any], *, out: _Codes | None = None) -> _Codes: ...
+    def encode(
+        self, z: np.ndarray[_S, np.dtype[np.floating[Any] | np.integer[Any]]], *, out: None = None
+    ) -> np.ndarray[_S, _Code]: ...
     @overload
-    def encode(self, z: _Array, *, out: _Array | None = None) -> _Array: ...
+    def encode(self, z: _Memory, *, out: None = None) -> _Memory: ...
     @overload
-    def decode(self, codes: int, *, bounds: Literal[False] = False, out: None = None) -> float: ...
+    def encode(self, z: _Lists, *, out: None = None) -> NDArray[np.uint16 | np.uint32]: ...
+    @overload
+    def encode(self, z: Any, *, out: _Out) -> _Out: ...
+    @overload
+    def decode(self, codes: int | np.integer[Any], *, bounds: Literal[False] = False, out: None = None) -> float: ...
     @overload
     def decode(
-        self, codes: NDArray[np.integer[Any]], *, bounds: Literal[False] = False, out: None = None
+        self, codes: np.ndarray[_S, np.dtype[np.integer[Any]]], *, bounds: Literal[False] = False, out: None = None
+    ) -> np.ndarray[_S, _F8]: ...
+    @overload
+    def decode(self, codes: _Memory, *, bounds: Literal[False] = False, out: None = None) -> _Memory: ...
+    @overload
+    def decode(self, codes: _Whole, *, bounds: Literal[False] = False, out: None = None) -> NDArray[np.float64]: ...
+    @overload
+    def decode(self, codes: Any, *, bounds: Literal[False] = False, out: _Out) -> _Out: ...
+    @overload
+    def decode(self, codes: int | np.integer[Any], *, bounds: Literal[True], out: None = None) -> Decoded[float]: ...
+    @overload
+    def decode(
+        self, codes: np.ndarray[_S, np.dtype[np.integer[Any]]], *, bounds: Literal[True], out: None = None
+    ) -> Decoded[np.ndarray[_S, _F8]]: ...
+    @overload
+    def decode(self, codes: _Memory, *, bounds: Literal[True], out: None = None) -> Decoded[_Memory]: ...
+    @overload
+    def decode(self, codes: _Whole, *, bounds: Literal[True], out: None = None) -> Decoded[NDArray[np.float64]]: ...
+    @overload
+    def decode(self, codes: Any, *, bounds: Literal[True], out: Sequence[_Out]) -> Decoded[_Out]: ...
+    @overload
+    def decode_window(self, depths: _Number, *, bounds: Literal[False] = False, out: None = None) -> float: ...
+    @overload
+    def decode_window(
+        self, depths: np.ndarray[_S, _Narrow], *, bounds: Literal[False] = False, out: None = None
+    ) -> np.ndarray[_S, _F4]: ...
+    @overload
+    def decode_window(
+        self, depths: np.ndarray[_S, _F8], *, bounds: Literal[False] = False, out: None = None
+    ) -> np.ndarray[_S, _F8]: ...
+    @overload
+    def decode_window(self, depths: _Memory, *, bounds: Literal[False] = False, out: None = None) -> _Memory: ...
+    @overload
+    def decode_window(
+        self, depths: _Lists, *, bounds: Literal[False] = False, out: None = None
     ) -> NDArray[np.float64]: ...
     @overload
-    def decode(self, codes: _Array, *, bounds: Literal[False] = False, out: _Array | None = None) -> _Array: ...
+    def decode_window(self, depths: Any, *, bounds: Literal[False] = False, out: _Out) -> _Out: ...
     @overload
-    def decode(self, codes: _Array, *, bounds: Literal[True], out: Sequence[_Array] | None = None) -> Decoded: ...
-    @overload
-    def decode_window(self, depths: float, *, bounds: Literal[False] = False, out: None = None) -> float: ...
+    def decode_window(self, depths: _Number, *, bounds: Literal[True], out: None = None) -> Decoded[float]: ...
     @overload
     def decode_window(
-        self, depths: _Single, *, bounds: Literal[False] = False, out: NDArray[np.float32] | None = None
-    ) -> NDArray[np.float32]: ...
+        self, depths: np.ndarray[_S, _Narrow], *, bounds: Literal[True], out: None = None
+    ) -> Decoded[np.ndarray[_S, _F4]]: ...
     @overload
     def decode_window(
-        self, depths: _Array, *, bounds: Literal[False] = False, out: _Array | None = None
-    ) -> _Array: ...
+        self, depths: np.ndarray[_S, _F8], *, bounds: Literal[True], out: None = None
+    ) -> Decoded[np.ndarray[_S, _F8]]: ...
+    @overload
+    def decode_window(self, depths: _Memory, *, bounds: Literal[True], out: None = None) -> Decoded[_Memory]: ...
     @overload
     def decode_window(
-        self, depths: _Array, *, bounds: Literal[True], out: Sequence[_Array] | None = None
-    ) -> Decoded: ...
+        self, depths: _Lists, *, bounds: Literal[True], out: None = None
+    ) -> Decoded[NDArray[np.float64]]: ...
     @overload
-    def window_depth(self, z: float, *, out: None = None) -> float: ...
+    def decode_window(self, depths: Any, *, bounds: Literal[True], out: Sequence[_Out]) -> Decoded[_Out]: ...
     @overload
-    def window_depth(self, z: _Single, *, out: NDArray[np.float32] | None = None) -> NDArray[np.float32]: ...
+    def window_depth(self, z: _Number, *, out: None = None) -> float: ...
     @overload
-    def window_depth(self, z: _Wide, *, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]: ...
+    def window_depth(self, z: np.ndarray[_S, _Narrow], *, out: None = None) -> np.ndarray[_S, _F4]: ...
     @overload
-    def window_depth(self, z: _Array, *, out: _Array | None = None) -> _Array: ...
+    def window_depth(self, z: np.ndarray[_S, _Wide], *, out: None = None) -> np.ndarray[_S, _F8]: ...
     @overload
-    def separation(self, z: float, *, out: None = None, quick: bool = False) -> float: ...
+    def window_depth(self, z: _Memory, *, out: None = None) -> _Memory: ...
     @overload
-    def separation(self, z: _Single, *, out: NDArray[np.float32] | None = None, quick: bool = False) -> NDArray[np.float32]: ...
+    def window_depth(self, z: _Lists, *, out: None = None) -> NDArray[np.float64]: ...
     @overload
-    def separation(self, z: _Wide, *, out: NDArray[np.float64] | None = None, quick: bool = False) -> NDArray[np.float64]: ...
+    def window_depth(self, z: Any, *, out: _Out) -> _Out: ...
     @overload
-    def separation(self, z: _Array, *, out: _Array | None = None, quick: bool = False) -> _Array: ...
+    def separation(self, z: _Number, *, out: None = None, quick: bool = False) -> float: ...
     @overload
-    def lattice(self, z: float, *, out: None = None) -> float: ...
+    def separation(
+        self, z: np.ndarray[_S, _Narrow], *, out: None = None, quick: bool = False
+    ) -> np.ndarray[_S, _F4]: ...
     @overload
-    def lattice(self, z: _Single, *, out: NDArray[np.float32] | None = None) -> NDArray[np.float32]: ...
+    def separation(self, z: np.ndarray[_S, _Wide], *, out: None = None, quick: bool = False) -> np.ndarray[_S, _F8]: ...
     @overload
-    def lattice(self, z: _Wide, *, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]: ...
+    def separation(self, z: _Memory, *, out: None = None, quick: bool = False) -> _Memory: ...
     @overload
-    def lattice(self, z: _Array, *, out: _Array | None = None) -> _Array: ...
+    def separation(self, z: _Lists, *, out: None = None, quick: bool = False) -> NDArray[np.float64]: ...
     @overload
-    def interval(self, z: float, *, out: None = None) -> float: ...
+    def separation(self, z: Any, *, out: _Out, quick: bool = False) -> _Out: ...
     @overload
-    def interval(self, z: _Single, *, out: NDArray[np.float32] | None = None) -> NDArray[np.float32]: ...
+    def lattice(self, z: _Number, *, out: None = None) -> float: ...
     @overload
-    def interval(self, z: _Wide, *, out: NDArray[np.float64] | None = None) -> NDArray[np.float64]: ...
+    def lattice(self, z: np.ndarray[_S, _Narrow], *, out: None = None) -> np.ndarray[_S, _F4]: ...
     @overload
-    def interval(self, z: _Array, *, out: _Array | None = None) -> _Array: ...
+    def lattice(self, z: np.ndarray[_S, _Wide], *, out: None = None) -> np.ndarray[_S, _F8]: ...
+    @overload
+    def lattice(self, z: _Memory, *, out: None = None) -> _Memory: ...
+    @overload
+    def lattice(self, z: _Lists, *, out: None = None) -> NDArray[np.float64]: ...
+    @overload
+    def lattice(self, z: Any, *, out: _Out) -> _Out: ...
+    @overload
+    def interval(self, z: _Number, *, out: None = None) -> float: ...
+    @overload
+    def interval(self, z: np.ndarray[_S, _Narrow], *, out: None = None) -> np.ndarray[_S, _F4]: ...
+    @overload
+    def interval(self, z: np.ndarray[_S, _Wide], *, out: None = None) -> np.ndarray[_S, _F8]: ...
+    @overload
+    def interval(self, z: _Memory, *, out: None = None) -> _Memory: ...
+    @overload
+    def interval(self, z: _Lists, *, out: None = None) -> NDArray[np.float64]: ...
+    @overload
+    def interval(self, z: Any, *, out: _Out) -> _Out: ...
     def worst(self, lo: float | None = None, hi: float | None = None) -> Worst: ...
 
-def run(
-    args: str | Sequence[str | os.PathLike[str]], *, input: str | bytes | None = None, text: bool = False
-) -> Any: ...
+@overload
+def run(args: str | Sequence[_Path], *, input: str | bytes | None = None, text: Literal[True]) -> str | bytes: ...
+@overload
+def run(args: str | Sequence[_Path], *, input: str | bytes | None = None, text: bool = False) -> Any: ...
 def solve(camera: Camera | None = None, **options: Any) -> dict[str, Any]: ...
 def bias(camera: Camera | None = None, **options: Any) -> dict[str, Any]: ...
-def check(requirements: str | os.PathLike[str] | Mapping[str, Any]) -> dict[str, Any]: ...
-def recognise(image: _Array, camera: Camera | None = None, **options: Any) -> dict[str, Any]: ...
+def check(requirements: _Path | Mapping[str, Any]) -> dict[str, Any]: ...
+
+_Image = _Path | NDArray[Any] | array[Any] | memoryview
+
+def recognise(image: _Image, camera: Camera | None = None, **options: Any) -> dict[str, Any]: ...
 
 class Figure(str):
-    def save(self, path: str | os.PathLike[str]) -> None: ...
+    def save(self, path: _Path) -> None: ...
 
-def plot(
-    figure: str, camera: Camera | None = None, *, file: str | os.PathLike[str] | None = None, **options: Any
-) -> Figure: ...
-def read(image: _Array, camera: Camera | None = None, product: str = "eye", **options: Any) -> _Array: ...
+def plot(figure: str, camera: Camera | None = None, *, file: _Path | None = None, **options: Any) -> Figure: ...
+def read(
+    image: _Image, camera: Camera | None = None, product: str = "eye", **options: Any
+) -> NDArray[np.float32 | np.float64]: ...
 def presets() -> list[dict[str, Any]]: ...
 def formats() -> list[dict[str, Any]]: ...
