@@ -286,6 +286,37 @@ TEST(simpler_models) {
     tally_end(&t);
 }
 
+/* Only with --full: each model's time stands behind it, in text and in JSON, within what the program took. */
+TEST(times_of_models) {
+    static const char *const lines[] = {"house.gltf -F d24 -m d3d", "house.gltf -F d24 -m d3d --viewport 1920x1080",
+                                        "house.gltf -F d24 -m reversed -n 0.1 -f 1000 --camera street --within 60",
+                                        "street.obj --separation 0.02 -F d16 -m log"};
+    tally t = {.name = "times"};
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
+        printed plain = print_of("scene tests/models/%s", lines[i]);
+        printed p = print_of("scene tests/models/%s --full", lines[i]);
+        json_t *root = json_printed(p.status, "scene tests/models/%s --full", lines[i]);
+        json_t *without = json_printed(p.status, "scene tests/models/%s", lines[i]);
+        TALLY(&t, strstr(plain.out, " ms)") == NULL && node_at(without, "decided") == NULL, "%s: unasked", lines[i]);
+        TALLY(&t, strstr(plain.out, "Decided in ") != NULL && strstr(p.out, "Decided in ") != NULL, "%s", lines[i]);
+        const char *said = strstr(p.out, "Decided in ");
+        double ms = (double)NAN;
+        TALLY(&t, sscanf(said + strcspn(said, "("), "(%lf ms)", &ms) == 1, "%s: no time: %s", lines[i], said);
+        TALLY(&t, ms > 0 && ms < 1e4, "%s: %g ms in: %s", lines[i], ms, said);
+        TALLY(&t, number_at(root, "decided.seconds") > 0, "%s: decided", lines[i]);
+        for (size_t k = 0; k < json_array_size(node_at(root, "models")); k++) {
+            const json_t *m = node_at(root, "models[%zu]", k);
+            TALLY(&t, number_at(m, "seconds") > 0 && number_at(m, "seconds") < 10, "%s: %zu", lines[i], k);
+            TALLY(&t, node_at(node_at(without, "models[%zu]", k), "seconds") == NULL, "%s: unasked", lines[i]);
+        }
+        json_decref(root);
+        json_decref(without);
+        printed_free(&plain);
+        printed_free(&p);
+    }
+    tally_end(&t);
+}
+
 TEST(refused) {
     static const refused_row models[] = {
         {"", "scene: needs MODEL", 2},

@@ -93,6 +93,7 @@ static const option_use uses[] = {
     OWN("format", DEFAULT("fp32")), OWN("mapping", DEFAULT("reversed")), GROUP_OF(bias_brought),
     OWN("viewport", WITHOUT("1920x1080 from an eye, else surfaces face the camera")),
     TAKE("log-c"), GROUP_OF(scene_model), TAKE("api"), TAKE("render"), TAKE("emit-need"), TAKE("report"),
+    OWN("full", HELP("all columns, however wide; and how long each model takes to judge all findings")),
     GROUP_OF(camera_slanted), GROUP_OF(camera_uses), GROUP_OF(output_written), END};
 
 static const option_rule rules[] = {

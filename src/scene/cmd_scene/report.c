@@ -12,7 +12,15 @@
 #include "report/number.h"
 #include "report/page.h"
 
-enum { DIGITS = 4, SHOWN_MOST = 20, LABEL = 4, WORD_SIZE = 41, NAME_SIZE = 128, LINE_SIZE = 2 * NAME_SIZE + 8 };
+enum {
+    DIGITS = 4,
+    SHOWN_MOST = 20,
+    LABEL = 4,
+    WORD_SIZE = 41,
+    NAME_SIZE = 128,
+    LINE_SIZE = 2 * NAME_SIZE + 8,
+    TOOK_SIZE = 40
+};
 
 /* ---- Text -------------------------------------------------------------------------------------------------------- */
 
@@ -112,22 +120,28 @@ static void say_everywhere(page *p, const scene *s) {
               asked(p, s, s->within).text, also);
 }
 
+/* " (0.012 ms)", with --full. */
+static const char *took(const scene *s, const scene_simpler *m, char out[TOOK_SIZE]) {
+    snprintf(out, TOOK_SIZE, s->o.out.full ? " (%s ms)" : "", number_of(1e3 * m->seconds, 2).text);
+    return out;
+}
+
 /* Which model decided, and whether a simpler one would have: the simplest that does, else in how many none does. */
 static void say_models(page *p, const scene *s) {
-    char said[LINE_SIZE] = "";
+    char said[LINE_SIZE] = "", time[TOOK_SIZE];
     const bool slanted = s->setup.spec.triangles.width > 0, shader = s->setup.shader;
     for (size_t i = 0; i < s->model_count; i++) {
         const scene_simpler *m = &s->models[i];
         const char *const which = strcmp(m->model, "float") == 0 ? " " SLANT_FACING : "";
         if (m->differs == 0) {
-            snprintf(said, sizeof said, "; %s%s decides alike", m->model, which);
+            snprintf(said, sizeof said, "; %s%s decides alike%s", m->model, which, took(s, m, time));
             break;
         }
-        append(said, sizeof said, i == 0 ? "; %s%s differs in %zu" : ", %s%s in %zu", m->model, which,
-               (size_t)m->differs);
+        append(said, sizeof said, i == 0 ? "; %s%s differs in %zu%s" : ", %s%s in %zu%s", m->model, which,
+               (size_t)m->differs, took(s, m, time));
     }
-    page_text(p, "Decided in %s, %s%s.", shader ? "float, of the shader" : dp_model_name(s->setup.spec.model),
-              slanted ? "at any slant" : SLANT_FACING, said);
+    page_text(p, "Decided in %s, %s%s%s.", shader ? "float, of the shader" : s->decided.model,
+              slanted ? "at any slant" : SLANT_FACING, took(s, &s->decided, time), said);
 }
 
 static void say_head(page *p, void *of) {
@@ -330,19 +344,25 @@ static const column bias_columns[] = {{FIELD(scene_bias, api, "api", "")},
                                       {FIELD(scene_bias, factor, "factor", "")},
                                       {.kind = COLUMN_END}};
 
+/* Conditions. */
+enum { FROM_EYES = 1, REQUIRED = 2, FACING = 4, TIMED = 8 };
+
 static const column model_columns[] = {{FIELD(scene_simpler, model, "model", "")},
                                        {FIELD(scene_simpler, surfaces, "surfaces", "")},
                                        {FIELD(scene_simpler, fights, "fights", "")},
                                        {FIELD(scene_simpler, differs, "differs", "")},
+                                       {FIELD(scene_simpler, seconds, "seconds", "s"), .when = TIMED},
                                        {.kind = COLUMN_END}};
+
+static const column decided_columns[] = {{FIELD(scene_simpler, model, "model", "")},
+                                         {FIELD(scene_simpler, surfaces, "surfaces", "")},
+                                         {FIELD(scene_simpler, seconds, "seconds", "s")},
+                                         {.kind = COLUMN_END}};
 
 static void *next_model(void *of, size_t i) {
     scene *s = of;
     return i < s->model_count ? &s->models[i] : NULL;
 }
-
-/* Conditions. */
-enum { FROM_EYES = 1, REQUIRED = 2, FACING = 4 };
 
 static const column eyes_columns[] = {
     {FIELD(scene_eyes, camera, "camera", "")},         {FIELD(scene_eyes, path, "path", "")},
@@ -407,6 +427,7 @@ static const column columns[] = {
     {FIELD(scene, found.cut, "cut", ""), .only = AS_JSON},
     {PART(scene, bias, "bias", bias_columns), .only = AS_JSON},
     {GROUP("left_out", left_columns), .only = AS_JSON},
+    {PART(scene, decided, "decided", decided_columns), .only = AS_JSON, .when = TIMED},
     {LIST("models", model_columns, next_model), .only = AS_JSON},
     {PART(scene, assumed, "any_slant", model_columns), .only = AS_JSON, .pointed = true, .optional = true},
     {PART(scene, view, "assumed", slant_view_columns), .only = AS_JSON, .when = FACING},
@@ -425,7 +446,7 @@ static void count(scene *s) {
 
 report_spec scene_report(scene *s) {
     count(s);
-    const unsigned when =
-        (s->eyes.count > 0 ? FROM_EYES : 0U) | (s->required ? REQUIRED : 0U) | (s->assumed != NULL ? FACING : 0U);
+    const unsigned when = (s->eyes.count > 0 ? FROM_EYES : 0U) | (s->required ? REQUIRED : 0U) |
+                          (s->assumed != NULL ? FACING : 0U) | (s->o.out.full ? TIMED : 0U);
     return (report_spec){"scene", columns, s, when, .label = LABEL, .head = say_head, .notes = say_notes};
 }

@@ -57,6 +57,7 @@ typedef struct scene_bias {
 typedef struct scene_simpler {
     const char *model, *surfaces; /* "facing" or "any slant" */
     uint64_t fights, differs;
+    double seconds; /* with --full: it takes to compare all findings, the least of several turns; else NaN */
 } scene_simpler;
 
 /* The eyes from which a model is judged. */
@@ -80,6 +81,7 @@ typedef struct scene {
     scene_finding *findings;
     const char *file, *unit, *transforms;
     scene_bias bias;
+    scene_simpler decided;                /* the model that decided, compared as the simpler ones are */
     scene_simpler models[DP_MODEL_COUNT]; /* the simpler ones, the simplest first */
     size_t model_count;
     scene_simpler
