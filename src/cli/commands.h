@@ -21,6 +21,12 @@ typedef struct command_part {
     unsigned bits;
 } command_part;
 
+/** Words that people type as options and that are none. */
+typedef struct command_word {
+    const char *names; /**< one space between, in any case; null behind the last */
+    const char *said;  /**< what they are, and what to write */
+} command_word;
+
 typedef struct command_row {
     const char *name;
     int (*run)(void *request);           /**< what main() runs. @return a status of report/output.h */
@@ -29,6 +35,7 @@ typedef struct command_row {
     const struct option_use *uses;       /**< which of them it takes */
     const struct option_rule *rules;     /**< what relates two of them; or null */
     int (*complete)(void *request);      /**< what follows from several options; or null. @return an exit status */
+    const command_word *words;           /**< those that it answers with a sentence; or null */
     const char *operand;                 /**< how help writes the operand, "FIGURE"; "" when there is none */
     int operand_min, operand_max;        /**< how many operands the command takes */
     const name_list *names;              /**< what the first operand may be; null when it is no name */

@@ -175,6 +175,10 @@ static void tell_engine(const void *of, list_item *item) {
                                           "times one less the cosine of the angle",
                                           "times one less the cosine of the angle, square to the ray"};
     const shadow_engine *row = of;
+    if (row->instead[0] != '\0') {
+        append(item->bound, sizeof item->bound, "%s", row->instead);
+        return;
+    }
     append_measure(item, row->bias, row->bias_in, row->bias_scale);
     if (row->normal != NULL) {
         append(item->bound, sizeof item->bound, "; ");

@@ -43,6 +43,7 @@ typedef struct shadow_engine {
     bool soft;               /**< both are multiplied by the filter's radius where that reads more than 2 x 2 texels */
     double units, factor;    /**< set besides, whatever the numbers */
     const char *unconfirmed; /**< what of the row is not; "" when all is */
+    const char *instead;     /**< why no bias follows from its numbers; "" where one does */
 } shadow_engine;
 
 NAMED_ROWS(shadow_engine, shadow_engine);

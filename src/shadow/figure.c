@@ -86,11 +86,11 @@ static double gap_at(const mapped *m, int way, double angle) {
 
 typedef double value_at(const mapped *m, int which, double angle);
 
-static void add_curve(chart *out, chart_panel *panel, const mapped *m, value_at *value, int which, chart_style style,
-                      const char *prefix, const char *name) {
+static chart_series *add_curve(chart *out, chart_panel *panel, const mapped *m, value_at *value, int which,
+                               chart_style style, const char *prefix, const char *name) {
     chart_series *s = chart_add_series(out, panel, CHART_LINE, POINTS);
     if (s == NULL)
-        return;
+        return NULL;
     s->style = style;
     snprintf(s->name, sizeof s->name, "%s%s", prefix, name);
     for (int i = 0; i < POINTS; i++) {
@@ -98,10 +98,20 @@ static void add_curve(chart *out, chart_panel *panel, const mapped *m, value_at 
         const double y = value(m, which, s->x[i]);
         s->y[i] = isfinite(y) && y > 0.0 ? y : (double)NAN; /* a log axis has no 0 */
     }
+    return s;
 }
 
 static void name_given(const figure_request *request, char *name, size_t size) {
     snprintf(name, size, "given, %.24s", request->engine->name);
+}
+
+/* A log axis has no place for a curve without a point above 0: its name says what it is. */
+static void name_hidden(chart_series *given, bool below) {
+    bool shown = false;
+    for (size_t i = 0; i < given->count; i++)
+        shown = shown || !isnan(given->y[i]);
+    if (!shown)
+        append(given->name, sizeof given->name, below ? ": below 0, not drawn" : ": 0, not drawn");
 }
 
 /* In place of the causes, one by one. */
@@ -109,7 +119,9 @@ static void add_given(chart *out, chart_panel *panel, const mapped *m) {
     char name[32];
     name_given(m->request, name, sizeof name);
     add_curve(out, panel, m, needed_at, 0, (chart_style){0, 0, 0, false}, "", "needed");
-    add_curve(out, panel, m, given_at, 0, (chart_style){1, 0, 1, false}, "", name);
+    chart_series *given = add_curve(out, panel, m, given_at, 0, (chart_style){1, 0, 1, false}, "", name);
+    if (given != NULL)
+        name_hidden(given, given_at(m, 0, 0.0) < 0.0);
 }
 
 static void add_panel(chart *out, const figure_request *request, size_t i) {
@@ -174,6 +186,7 @@ static const char *add_distances(const figure_request *request, chart *out) {
                               : chart_add_series(out, panel, CHART_LINE, DEPTHS);
         if (s == NULL)
             continue;
+        bool below = false;
         s->style = rows[k].style;
         snprintf(s->name, sizeof s->name, "%s", rows[k].name);
         if (rows[k].value == given_at)
@@ -186,7 +199,10 @@ static const char *add_distances(const figure_request *request, chart *out) {
             const double y = rows[k].value(&m, rows[k].which, most);
             s->x[i] = z;
             s->y[i] = isfinite(y) && y > 0.0 ? y : (double)NAN;
+            below = below || y < 0.0;
         }
+        if (rows[k].value == given_at)
+            name_hidden(s, below);
     }
     chart_fit(out);
     return NULL;

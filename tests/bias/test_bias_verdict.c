@@ -292,3 +292,28 @@ TEST(checked) {
     assert_relative(number_at(root, "setups[0].push.degrees"), degrees, 1e-9);
     json_decref(root);
 }
+
+/* The words of engines are the same numbers as the options; what is no bias is answered with a sentence. */
+TEST(words_of_engines) {
+    static const char *const units[] = {"polygonOffsetUnits", "depthBias",  "depthBiasConstantFactor",
+                                        "DepthBias",          "depth_bias", "zOffsetUnits"};
+    static const char *const factors[] = {
+        "polygonOffsetFactor", "depthBiasSlopeScale", "depthBiasSlopeFactor", "SlopeScaledDepthBias",
+        "slopeDepthBias",      "slopeScale",          "slope_scale",          "zOffset"};
+    static const char *const clamps[] = {"depthBiasClamp", "DepthBiasClamp"};
+    static const char *const orders[] = {"sortPriority", "sortingOrder",   "renderOrder", "render_priority",
+                                         "drawOrder",    "RENDERPRIORITY", "zIndex",      "alphaIndex"};
+    static const char line[] = "bias -m gl -F d24 --at 1";
+    enum { COUNT = 8 };
+    for (size_t i = 0; i < COUNT; i++) {
+        json_t *root = json_printed(0, "%s --%s=-3 --%s=-2 --%s=-0.5", line, units[i % 6], factors[i], clamps[i % 2]);
+        assert_true(number_at(root, "units") == -3 && number_at(root, "factor") == -2);
+        assert_true(number_at(root, "clamp") == -0.5);
+        json_decref(root);
+        check_says(2, "moves no depth", "%s --%s 3", line, orders[i]);
+        check_says(2, "unknown option", "table --at 1 --%s 3", orders[i]);
+    }
+    check_says(2, "'--polygonOffset' is no option: it has two numbers", "%s --polygonOffset=-1,-2", line);
+    check_says(2, "unknown option", "%s --sortPriorit 3", line);
+    check_says(2, "unknown option", "%s --sort 3", line);
+}

@@ -101,6 +101,8 @@ static bool preset_row(size_t i, listed *l) {
 
 static bool engine(size_t i, listed *l) {
     ROW(shadow_engine, shadow_engine_get(i), r->aliases)
+    if (r->instead[0] != '\0')
+        return true;
     for (int k = 0; k < 3; k++) /* of each kind of light, where it is not that of the one before */
         if (k == 0 || r->bias_in[k] != r->bias_in[k - 1] || r->bias_scale[k] != r->bias_scale[k - 1])
             add_number(l, r->bias_scale[k]);

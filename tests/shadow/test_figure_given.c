@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The figures of shadow maps with an engine: what it gives by hand, what is needed as the sum of the causes that the
- * figure without it shows; against the angle and against the distance.
+ * figure without it shows; against the angle and against the distance; what has no place on the axis.
  */
 #include "printed.h"
 
@@ -61,4 +61,23 @@ TEST(against_the_distance) {
     json_decref(root);
     check_says(2, "--spot or --point", "plot shadow-distance --csv");
     check_says(2, "--engine", "plot shadow --bias 3 --csv");
+}
+
+/* A log axis has no 0 and nothing below: the legend says so, and the data have the curve without a point. */
+static void check_hidden(const char *name, const char *line) {
+    json_t *root = json_printed(0, "%s", line);
+    const json_t *given = series_of(root, name);
+    if (given == NULL)
+        fail_msg("%s: no curve is named '%s'", line, name);
+    for (size_t i = 0; i < json_array_size(json_object_get(given, "points")); i++)
+        assert_true(json_is_null(node_at(given, "points[%zu].length", i)));
+    json_decref(root);
+}
+
+TEST(what_a_log_axis_has_no_place_for) {
+    check_hidden("given, three: 0, not drawn", "plot shadow --light-box 20x20x50 --engine three");
+    check_hidden("given, three: below 0, not drawn", "plot shadow --light-box 20x20x50 --engine three --bias 0.01");
+    check_hidden("given, three: 0, not drawn", "plot shadow-distance --spot 70 -n 0.1 -f 30 --engine three");
+    check_hidden("given, three: below 0, not drawn",
+                 "plot shadow-distance --spot 70 -n 0.1 -f 30 --engine three --bias 0.01");
 }

@@ -242,6 +242,10 @@ TEST(told_numbers_are_enough) {
     for (size_t i = 0; i < sizeof lights / sizeof lights[0]; i++)
         for (size_t e = 0; shadow_engine_get(e) != NULL; e++) {
             const char *name = shadow_engine_get(e)->name;
+            if (shadow_engine_get(e)->instead[0] != '\0') {
+                check_says(2, "no bias in depth follows", "shadow %s --engine %s", lights[i], name);
+                continue;
+            }
             printed p = print_of("shadow %s --engine %s", lights[i], name);
             char *row = strstr(p.out, "\nengine "), told[2][32];
             assert_non_null(row);

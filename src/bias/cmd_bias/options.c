@@ -61,10 +61,12 @@ static const option_row bias_rows[] = {
         "constant bias in units of r, a whole number for d3d11, d3d12 and webgpu; in window depth for d3d9 and "
         "vulkan-float; inf or -inf as a program sets it that casts it",
         .parse = parse_units, INTO(double, units), LIMITS(-1e12, 1e12, NULL),
-        .without = "the units needed", .also = "polygonOffsetUnits depthBias depthBiasConstantFactor DepthBias"},
+        .without = "the units needed", .also = "polygonOffsetUnits depthBias depthBiasConstantFactor DepthBias "
+        "depth_bias zOffsetUnits"},
     {"factor", 0, "F",
         "bias in units of the window slope", NUMBER(factor, -1e12, 1e12, NULL), .standard = "0",
-        .also = "polygonOffsetFactor depthBiasSlopeScale depthBiasSlopeFactor SlopeScaledDepthBias slopeDepthBias"},
+        .also = "polygonOffsetFactor depthBiasSlopeScale depthBiasSlopeFactor SlopeScaledDepthBias slopeDepthBias "
+        "slopeScale slope_scale zOffset"},
     {"clamp", 0, "C",
         "greatest bias, or least when negative, in window depth", NUMBER(clamp, -1e12, 1e12, NULL),
         .standard = "0", .without = "none", .also = "depthBiasClamp DepthBiasClamp"},
@@ -178,6 +180,13 @@ static const option_rule rules[] = {
     {.option = NULL}};
 /* clang-format on */
 
+static const command_word words[] = {
+    {"sortPriority sortOrder sortingOrder sortKey renderOrder render_priority renderPriority renderQueue drawOrder "
+     "zIndex alphaIndex translucencySortPriority",
+     "it says what is drawn first, and moves no depth: --units does, and --remedy stencil needs none"},
+    {"polygonOffset glPolygonOffset offset", "it has two numbers, in this order: --factor F --units U"},
+    {NULL, NULL}};
+
 static const option_place places[] = {
     CAMERA_PLACES(bias_request), PLACE(bias_request, bias, bias_options), OWN_PLACE(check_options), {.table = NULL}};
 
@@ -191,7 +200,7 @@ static int complete(void *request) {
 /* clang-format off */
 const command_row command_bias = {
     .name = "bias", .request = sizeof(bias_request), .places = places, .uses = uses, .rules = rules,
-    .complete = complete, .operand = "",
+    .complete = complete, .words = words, .operand = "",
     .summary = "what a depth bias does and how much is needed, per API",
     .example = "  depthprec bias --api gl -F d24 -m gl --units -1 --at 1,10,100\n"
     "  depthprec bias --api all --separation 0.02 --at 300\n"

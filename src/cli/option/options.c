@@ -4,6 +4,7 @@
 #include <getopt.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "cli/list.h"
 #include "cli/option/option.h"
@@ -117,6 +118,16 @@ static const option_row *row_of_value(const known *k, int value, const command_r
     return NULL;
 }
 
+/* What a command says of a word that is no option of any; null: nothing. */
+static const char *said_of(const command_word *words, const char *given) {
+    const size_t length = strlen(given);
+    for (; words != NULL && words->names != NULL; words++)
+        for (const char *name = words->names; *name != '\0'; name += strcspn(name, " "), name += *name == ' ')
+            if (strcspn(name, " ") == length && strncasecmp(name, given, length) == 0)
+                return words->said;
+    return NULL;
+}
+
 /* getopt has refused: say what and why, with the nearest option that the command takes. */
 static int unknown_option(const asked_line *line, const known *k, int refused, const char *argument) {
     if (refused != 0)
@@ -132,6 +143,9 @@ static int unknown_option(const asked_line *line, const known *k, int refused, c
     const name_list all = {.words = taken};
     append(given, sizeof given, "%.*s", length > 2 ? length - 2 : 0, argument + (length > 2 ? 2 : 0));
     dp_mapping mapping;
+    const char *said = said_of(line->command->words, given);
+    if (said != NULL)
+        return usage_error("'%.*s' is no option: %s", length, argument, said);
     if (dp_mapping_parse(given, &mapping) == DP_OK)
         return usage_error("unknown option '%.*s'; did you mean '--mapping %s'?", length, argument, given);
     if (*names_nearest(&all, "--", given, 2, text) != '\0')

@@ -100,6 +100,10 @@ static int add_engine(asked_line *line, const option_row *row, const char *name,
     list_item found;
     if (!names_find(row->names, name, NULL, &found))
         return option_unknown(row, name);
+    const shadow_engine *engine = found.row;
+    if (engine->instead[0] != '\0')
+        return option_refuse(row, "must be an engine whose numbers are known in depth, got '%s': %s", engine->name,
+                             engine->instead);
     o->engine = o->engine != NULL ? o->engine : found.row;
     for (size_t i = 0; shadow_engine_get(i) != NULL; i++)
         if (found.row == shadow_engine_get(i))
