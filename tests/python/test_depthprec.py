@@ -19,6 +19,7 @@ import threading
 import types
 import unittest
 import warnings
+import zlib
 from fractions import Fraction
 
 import depthprec
@@ -43,6 +44,28 @@ def program(*words, input=None):
     done = subprocess.run([PROGRAM, *words], input=input, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
                           check=False)
     return done.stdout
+
+
+def png_samples(path):
+    """Grey samples of 16 bits, of rows without a filter or with that of differences."""
+    with open(path, "rb") as file:
+        data = file.read()
+    at, packed = 8, b""
+    while at < len(data):
+        size, kind = struct.unpack_from(">I4s", data, at)
+        if kind == b"IHDR":
+            width, height, bits, colours = struct.unpack_from(">IIBB", data, at + 8)
+        packed += data[at + 8:at + 8 + size] if kind == b"IDAT" else b""
+        at += 12 + size
+    assert (bits, colours) == (16, 0)
+    rows, found = zlib.decompress(packed), []
+    for y in range(height):
+        row = bytearray(rows[y * (2 * width + 1):(y + 1) * (2 * width + 1)])
+        assert row[0] in (0, 1)
+        for x in range(3, len(row) if row[0] else 0):
+            row[x] = (row[x] + row[x - 2]) & 255
+        found += struct.unpack(">%dH" % width, row[1:])
+    return found
 
 
 class Oracle(unittest.TestCase):
@@ -349,6 +372,69 @@ class Program(unittest.TestCase):
         for wrong, said in (("/none.png", "/none.png"), ("-x", r"\./-x")):
             with self.assertRaisesRegex(Error, said):
                 depthprec.read(wrong)
+
+    def test_write(self):
+        """What is written comes back within half a step, by a PNG reader of the test and by read(); files are whole or not."""
+        r, folder = generator("write"), tempfile.mkdtemp()
+        path = os.path.join(folder, "a.png")
+        for k in range(20):
+            height, width, step = r.randint(1, 9), r.randint(1, 9), (0.001, 1 / 256, 0.0002)[k % 3]
+            flat = [binary32(r.uniform(step, 65534 * step)) for _ in range(height * width)]
+            z = memoryview(array.array("f", flat)).cast("B").cast("f", (height, width))
+            found = depthprec.write(path, z, metric=1, as_="even:%r" % step)
+            self.assertEqual([found["scale"], found["offset"], found["type"]], [step, 0, "u2"])
+            read = [x for row in memoryview(depthprec.read(path)).tolist() for x in row]
+            for exact, sample, back in zip(flat, png_samples(path), read):
+                self.assertLessEqual(abs(Fraction(exact) - sample * Fraction(step)), Fraction(step) / 2 + Fraction(exact) / 2 ** 22)
+                self.assertLess(abs(back - sample * step), 1e-6 * back)
+            most = max(flat)
+            unit = depthprec.write(path, z, metric=1)["scale"]
+            self.assertLess(abs(unit * 65535 / most - 1), 1e-6)
+            for exact, sample in zip(flat, png_samples(path)):
+                self.assertLessEqual(abs(exact - sample * unit), 0.501 * unit)
+            for ending in (".npy", ".PFM"):
+                depthprec.write(path + ending, z, metric=1)
+                self.assertEqual(memoryview(depthprec.read(path + ending, metric=1)).tolist(), z.tolist())
+        camera = Camera(0.5, 50, "unorm24", "reversed")
+        depths = memoryview(array.array("d", [camera.window_depth(x) for x in (0.6, 7, 49, 1)])).cast("B").cast("d", (2, 2))
+        packed = os.path.join(folder, "packed.png")
+        self.assertEqual(depthprec.write(packed, depths, camera, "pack:rgb24"), {})
+        for got, want in zip(memoryview(depthprec.read(packed)).tolist()[0], (0.6, 7)):
+            self.assertLess(abs(got - want), 2 * camera.lattice(want) + 1e-6 * want)
+        os.remove(packed)
+        self.no_half_files(folder, path, z)
+
+    def no_half_files(self, folder, path, z):
+        with open(path, "rb") as file:
+            before = file.read()
+        os.chmod(path, 0o640)
+        for to, options, said in ((path, {"as_": "even:1e-9"}, "^as_: .* a PNG holds 65534"), (path, {"product": "eyes"}, "^product"),
+                                  (path, {"nera": 1}, "nera"), (os.path.join(folder, "none", "a.png"), {}, "none/a.png"),
+                                  (folder + "/a.exr", {}, "must end in .png"), (folder, {}, "must end in .png"),
+                                  ("", {}, "must end in .png"), (b"a.png", {}, "must end in .png"),
+                                  (path, {"figure": path}, "figure|output")):
+            with self.assertRaisesRegex(Error, said):
+                depthprec.write(to, z, **{"metric": 1, **options})
+        for wrong in (3, None):
+            with self.assertRaises(TypeError):
+                depthprec.write(wrong, z, metric=1)
+            with self.assertRaises(TypeError):
+                depthprec.write(path, wrong)
+        if os.path.exists("/dev/full"):
+            full = os.path.join(folder, "full.png")
+            os.symlink("/dev/full", full)
+            with self.assertRaisesRegex(Error, "full.png"):
+                depthprec.write(full, z, metric=1)
+            self.assertTrue(os.path.islink(full))
+            os.remove(full)
+        with open(path, "rb") as file:
+            self.assertEqual(file.read(), before)
+        self.assertEqual(sorted(os.listdir(folder)), ["a.png", "a.png.PFM", "a.png.npy"])
+        depthprec.write(path, z, metric=1)
+        self.assertEqual(os.stat(path).st_mode & 0o777, 0o640)
+        if os.geteuid() != 0:
+            os.chmod(path, 0o440)
+            self.assertRaises(Error, depthprec.write, path, z, metric=1)
 
     def test_lists(self):
         self.assertEqual(depthprec.presets(), json.loads(program("list", "presets", "--json"))["items"])

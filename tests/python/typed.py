@@ -24,6 +24,7 @@ GIVEN = {  # name: its type, its value
     "whole": (PLANE % "np.int64", "np.full((2, 3), 7)"),
     "codes": (PLANE % "np.uint16", "np.full((2, 3), 7, np.uint16)"),
     "listed": ("list[float]", "[1.0, 2.0]"),
+    "path": ("str", "sys.argv[1] + '.png'"),
     "kept": ("array[float]", "array('d', [0.5])"),
 }
 RIGHT = [
@@ -45,6 +46,7 @@ RIGHT = [
     ("camera.replace(near=1, viewport=(640, 480)).far", "float"), ("Camera.preset('unity', unit='cm', far=5e4).format", "str"),
     ("Camera.from_matrix([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, -1, -1], [0, 0, -1, 0]], 'd3d', format='d24')", "Camera"),
     ("depthprec.read(codes, few)", "np.ndarray[typing.Any, np.dtype[np.float32 | np.float64]]"),
+    ("depthprec.write(path, wide, product='eye', metric=1)", "dict[str, typing.Any]"),
     ("depthprec.recognise(codes)", "dict[str, typing.Any]"), ("depthprec.presets()", "list[dict[str, typing.Any]]"),
     ("depthprec.run('version', text=True)", "str | bytes"), ("depthprec.plot('error', camera)", "depthprec.Figure"),
     *(("%s.encode(%s)" % (camera, z), (shape % CODES)) for camera in ("camera", "few")
@@ -75,7 +77,7 @@ def has(value, kind):
 
 def main(path):
     names = {}
-    lines = ["import typing", "from array import array", "import numpy as np", "import depthprec", "from depthprec import Camera"]
+    lines = ["import sys", "import typing", "from array import array", "import numpy as np", "import depthprec", "from depthprec import Camera"]
     for name, (kind, value) in GIVEN.items():
         names[name] = eval(value, {**globals(), **names})
         lines.append("%s: %s = %s" % (name, kind, value))

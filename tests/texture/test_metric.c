@@ -401,6 +401,44 @@ TEST(bands_count_numbers_of_the_file) {
     }
 }
 
+/* Depths in steps as others read them, from 1 to 65534; what reaches further is refused, and nothing is written. */
+TEST(a_png_counts_the_steps_of_as) {
+    static double data[PIXELS];
+    rng r = rng_make("steps");
+    for (int k = 0; k < 12; k++) {
+        const double step = k % 2 != 0 ? 0.001 : 1.0 / 256, farthest = step * (65534.4 + 0.2 * (k % 4 == 3));
+        double z[PIXELS];
+        for (int i = 0; i < PIXELS; i++) {
+            z[i] = (double)(float)(i == 0 ? farthest : i == 1 ? 0.4 * step : rng_log(&r, 0.6 * step, farthest));
+            truth_store(data, IMAGE_F32, (size_t)i, z[i]);
+        }
+        truth_write(truth_path("in.npy"), IMAGE_NPY, IMAGE_F32, data);
+        remove(truth_path("out.png"));
+        command c = {.count = 0};
+        char words[32];
+        snprintf(words, sizeof words, "even:%.9g", step);
+        const char *const path = truth_path("out.png");
+        for (const char *const *word = (const char *[]){truth_path("in.npy"), "--metric", "1", "--as", words,
+                                                        "--product", "eye", "-q", "-o", path, NULL};
+             *word != NULL; word++)
+            truth_add(&c, *word);
+        assert_int_equal(truth_run(c.arguments, c.count), k % 4 == 3 ? 2 : 0);
+        image img;
+        image_error error;
+        assert_int_equal(image_read(path, &img, &error), k % 4 != 3);
+        if (k % 4 == 3) {
+            assert_true(was_said("of which a PNG holds 65534, up to 65.534, and the farthest depth is 65.535"));
+            continue;
+        }
+        assert_int_equal(img.type, IMAGE_U16);
+        for (int i = 0; i < PIXELS; i++) {
+            const double exact = z[i] / step, got = ((const uint16_t *)img.data)[i];
+            assert_true(fabs(got - exact) <= 0.5 + 0x1p-22 * exact);
+        }
+        image_free(&img);
+    }
+}
+
 TEST(what_is_no_lattice_is_refused) {
     static const char *const bad[] = {"",         "stereo",  "stereo:500", "stereo:500,0.1,1,2",
                                       "even:0",   "even:-1", "even:",      "even:1,",

@@ -2,7 +2,7 @@
 """What a depth buffer resolves, exact and proven.
 
 Camera has encode, decode, decode_window, window_depth, separation, lattice, interval and worst; solve, check, recognise,
-bias, plot, read, presets, formats and run are commands. Depths are eye depths along the view axis, in scene units;
+bias, plot, read, write, presets, formats and run are commands. Depths are eye depths along the view axis, in scene units;
 window depths are from 0 to 1; codes are what the buffer stores.
 
 Arrays are any memory of float16, float32, float64 or integers, in either order of bytes: numpy, array.array,
@@ -21,10 +21,11 @@ from functools import partial as _partial
 
 from . import _arrays, _core, _table
 from ._core import Error
-from ._program import Figure, answer as _answer, bias, check, formats, plot, presets, read, recognise, run, solve
+from ._program import Figure, answer as _answer, bias, check, formats, plot, presets, read, recognise, run, solve, \
+    write
 
 __all__ = ["Camera", "Decoded", "Error", "Figure", "Worst", "bias", "check", "formats", "plot", "presets", "read",
-           "recognise", "run", "solve"]
+           "recognise", "run", "solve", "write"]
 __version__ = _core.version().decode()
 
 Decoded = _namedtuple("Decoded", "z lo hi")

@@ -78,10 +78,10 @@ def _argument(value):
     return repr(float(value)) if isinstance(value, float) else str(value)
 
 
-def answer(words, options, **more):
-    """The JSON of a command; what it says of options names them as they are called here, without hyphens."""
+def answer(words, options, form=("--json",), **more):
+    """What a command answers; what it says of options names them as they are called here, without hyphens."""
     try:
-        return run([*words, "--json", *words_of(options)], **more)
+        return run([*words, *form, *words_of(options)], **more)
     except Error as error:
         raise Error(_plain(str(error)), error.status) from None
 
@@ -169,10 +169,7 @@ def plot(figure, camera=None, *, file=None, **options):
     Returns Figure, a str that a notebook shows and that has save(path). Raises Error.
     """
     words = ["plot", figure, *([] if file is None else [_path(file)]), "--type=svg", "--output=-", "--quiet"]
-    try:
-        return Figure(run([*words, *words_of(_asked(camera, "plot", options))], text=True))
-    except Error as error:
-        raise Error(_plain(str(error)), error.status) from None
+    return Figure(answer(words, _asked(camera, "plot", options), (), text=True))
 
 
 def read(image, camera=None, product="eye", **options):
@@ -196,7 +193,26 @@ def read(image, camera=None, product="eye", **options):
     flat = bytearray(data[10 + size:])
     if numpy is not None:
         return numpy.frombuffer(flat, head["descr"]).reshape(head["shape"])
-    return memoryview(flat).cast({"f4": "f", "f8": "d"}[head["descr"][1:]], head["shape"])
+    return memoryview(flat).cast({"f4": "f", "f8": "d", "u1": "B"}[head["descr"][1:]], head["shape"])
+
+
+def write(path, image, camera=None, product="eye", **options):
+    """Writes the pixels of a depth image as read() gives them to a file: PNG of 16 bits, PFM or NPY by its ending.
+
+    ``write("depth.png", z, metric=1, as_="even:0.001")`` writes metres as millimetres; a PNG without ``as_`` is in 65535ths
+    of its farthest depth. ``product="pack:rgb24"`` writes packed channels. read() of the file needs no option, because
+    a PNG says in itself what it holds. An old file stays until the new one is whole.
+
+    Returns the meaning of the samples, as depthprec(5) has it: offset + scale x sample, ``["scale"]``; of packed channels
+    nothing. Raises Error.
+    """
+    to = os.fspath(path)
+    if not isinstance(to, str) or not to.lower().endswith((".png", ".pfm", ".npy")):
+        raise Error("a path must end in .png, .pfm or .npy, got %r" % (to,))
+    source, input = _source(image)
+    asked = {"product": product, **_asked(camera, "texture", options), "output": to}
+    form = () if product.startswith("pack") else ("--json",)  # a packing says itself what it means
+    return answer(["texture", source, "--quiet"], asked, form, input=input) or {}
 
 
 def presets():

@@ -232,7 +232,8 @@ static const option_row texture_rows[] = {
         .parse = parse_product, INTO(const product_row *, product), .names = &products},
     {"as", 0, "NAME[:NUMBERS]",
         "eye depths as another sensor or format would have stored them: the nearest levels of what --lattice has names "
-        "for, which begin at 0 where nothing else is said", TEXT(as), .without = "not rounded"},
+        "for, which begin at 0 where nothing else is said; a PNG counts those of even:STEP",
+        TEXT(as), .without = "not rounded"},
     {"picture", 0, "FILE",
         "a PNG of colours of the same size, onto which --product effect is composed as shaders do; sky then lies at "
         "the far plane unless --sky is given", FILE_READ(picture)},

@@ -6,6 +6,7 @@
 #include "plot/cmd_plot/figure_file.h"
 #include "texture/cmd_texture/request.h"
 #include "texture/cmd_texture/texture.h"
+#include "texture/cmd_texture/writing.h"
 #include "texture/normals.h"
 
 bool texture_product_wanted(const texture_request *o) {
@@ -148,6 +149,23 @@ static bool find_levels(const texture_source *s, texture_product *p) {
     return true;
 }
 
+/* A PNG of multiples of a step holds 65534 of them: 65535 is a hole to many readers. */
+static int check_steps(const texture_request *o, const texture_source *s, const texture_product *p) {
+    const double step = writing_step(&p->made);
+    image_file file;
+    frame_summary sum;
+    if (!(step > 0) || o->out.file == NULL || !image_file_of(o->out.file, &file) || file != IMAGE_PNG)
+        return EXIT_FINE;
+    if (!frame_summarise(&s->frame, &p->made, &sum))
+        return usage_error("texture: no memory for the levels of --as");
+    return sum.count == 0 || sum.hi <= step * (GREYS - 0.5)
+               ? EXIT_FINE
+               : option_error("as",
+                              "is in steps of %s, of which a PNG holds 65534, up to %s, and the farthest depth is %s: "
+                              "take a larger step, or write .npy",
+                              number_full(step).text, number_full(step * (GREYS - 1)).text, number_full(sum.hi).text);
+}
+
 int texture_product_check(const texture_request *o, const texture_source *s, texture_product *p) {
     static const char *const truths[][2] = {
         [FRAME_EYE] = {"half of each cell", "error"},
@@ -166,5 +184,5 @@ int texture_product_check(const texture_request *o, const texture_source *s, tex
         return usage_error("texture: %s: %s", p->name, wrong);
     if (p->made.error)
         append(p->name, sizeof p->name, ", %s", truths[p->made.kind][s->path == NULL]);
-    return EXIT_FINE;
+    return p->made.error || o->image.as == NULL ? EXIT_FINE : check_steps(o, s, p);
 }

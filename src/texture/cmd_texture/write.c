@@ -121,6 +121,11 @@ static bool in_units(const frame_product *made, const frame_summary *sum) {
     return made->kind == FRAME_EYE && !made->error && !made->radial && sum->count > 0 && sum->lo > 0;
 }
 
+double writing_step(const frame_product *made) {
+    const bool even = made->as != NULL && made->as->row->levels == GRAIN_EVEN && !made->error;
+    return even && fabs(made->as->offset) < made->as->step / GREYS ? made->as->step : 0;
+}
+
 /* The range that a PNG spreads over its samples: of an effect that asked for or of a colour; else that found. */
 static bool range_of(const texture_request *o, const texture_source *s, const frame_product *made, frame_summary *sum) {
     const bool asked = option_given(o->line, "range"), wide = made->kind == FRAME_NORMAL || made->vector;
@@ -150,7 +155,8 @@ static bool rounding_of_product(const texture_request *o, const texture_source *
     *more = 0;
     if (!range_of(o, s, &plain, &sum))
         return false;
-    const double unit = in_units(&plain, &sum) ? sum.hi / GREYS : (sum.hi - sum.lo) / (GREYS - 1);
+    const double step = writing_step(&plain);
+    const double unit = step > 0 ? step : in_units(&plain, &sum) ? sum.hi / GREYS : (sum.hi - sum.lo) / (GREYS - 1);
     if (sum.count > 0)
         *more = factors[made->kind] * (made->vector ? M_SQRT2 : 1) * unit / 2 * (1 + 0x1p-20);
     if (in_units(&plain, &sum))
@@ -169,9 +175,10 @@ static bool scale_of(const texture_request *o, const texture_source *s, const fr
     w->upwards = made->error;
     if (made->error && !rounding_of_product(o, s, made, &w->more))
         return false;
-    w->units = in_units(made, &sum);
-    w->hi = (sum.count == 0 ? 1 : sum.hi) + w->more;
-    w->lo = sum.count == 0 || made->error ? 0 : w->units ? w->hi / GREYS : sum.lo;
+    const double step = writing_step(made);
+    w->units = step > 0 || in_units(made, &sum);
+    w->hi = step > 0 ? step * GREYS : (sum.count == 0 ? 1 : sum.hi) + w->more;
+    w->lo = w->units ? w->hi / GREYS : sum.count == 0 || made->error ? 0 : sum.lo;
     w->scale = w->hi > w->lo ? 1 / (w->hi - w->lo) : 0;
     return true;
 }

@@ -9,6 +9,9 @@
 
 enum { GREYS = 65535 };
 
+/** The step of eye depths that --as rounded to multiples of one, which samples of 16 bits then count; else 0. */
+double writing_step(const frame_product *made);
+
 /** An image on its way into an output, under whose name it appears when it is complete. */
 typedef struct writing {
     output out;
