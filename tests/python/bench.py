@@ -6,6 +6,7 @@
 Unpacks the wheel of $B/dist into an empty folder. Times are the best of many, C and Python in turn.
 """
 import array
+import functools
 import glob
 import importlib
 import os
@@ -102,6 +103,11 @@ def main():
         measure(loop, "window depth float32", camera, 7, 0, 1, camera.window_depth, z, f)
         if numpy:
             textbook(camera, z, codes)
+            for name, count in (("separation", 10000), ("lattice", 10000), ("interval", 10000), ("quick", 100000), ("quick", most)):
+                some = z[:count]
+                quick = {"quick": True} if name == "quick" else {}
+                work = functools.partial(getattr(camera, "separation" if quick else name), some, **quick)
+                print("%-34s %8d  %24.2f ns" % (name, count, best(work, 20) / count))
         else:
             print("numpy is not here: its textbook formula is left out")
 

@@ -10,6 +10,7 @@ import math
 import os
 import pickle
 import re
+import shutil
 import signal
 import struct
 import subprocess
@@ -18,6 +19,7 @@ import tempfile
 import threading
 import types
 import unittest
+import unittest.mock
 import warnings
 import zlib
 from fractions import Fraction
@@ -978,6 +980,28 @@ class Cameras(unittest.TestCase):
         self.assertEqual(sorted(set(methods) - {name.split(".")[-1] for name, _ in stubs}), [])
         for name in depthprec.__all__:
             self.assertTrue(getattr(depthprec, name).__doc__, name)
+
+    def test_old_system(self):
+        """Where the C library is older than the wheel, the library and the program say what to do."""
+        folder = tempfile.mkdtemp()
+        package = os.path.join(folder, "depthprec")
+        shutil.copytree(os.path.dirname(depthprec.__file__), package, ignore=shutil.ignore_patterns("*.so.0"))
+        with open(os.path.join(package, "libdepthprec.so.0"), "w") as file:
+            file.write("none")
+        done = subprocess.run([sys.executable, "-c", "import depthprec"], env={**os.environ, "PYTHONPATH": folder},
+                              stderr=subprocess.PIPE, check=False)
+        self.assertRegex(done.stderr.decode(), r"\nImportError: depthprec: its library cannot be loaded: .*tar\.gz' builds it")
+        fake = os.path.join(folder, "old")
+        with open(fake, "w") as file:
+            file.write("#!/bin/sh\necho \"$0: /lib/libc.so.6: version 'GLIBC_2.34' not found (required by $0)\" >&2\nexit 1\n")
+        os.chmod(fake, 0o755)
+        with unittest.mock.patch.object(_program, "PATH", fake):
+            for work in (depthprec.formats, lambda: depthprec.run("table")):
+                with self.assertRaisesRegex(Error, "GLIBC_2.34' not found .*tar\\.gz' builds it"):
+                    work()
+        with unittest.mock.patch.object(_program, "PATH", os.path.join(folder, "none")):
+            with self.assertRaisesRegex(Error, "cannot be run: No such file"):
+                depthprec.run("table")
 
     def test_version(self):
         self.assertIn(depthprec.__version__, program("--version").decode())

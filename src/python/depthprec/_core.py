@@ -4,7 +4,11 @@ import ctypes
 import os
 from ctypes import POINTER, byref, c_char, c_char_p, c_double, c_float, c_int, c_size_t, c_uint32, c_uint64, c_void_p
 
-library = ctypes.CDLL(os.path.join(os.path.dirname(os.path.abspath(__file__)), "libdepthprec.so.0"))
+OLD = "; on a system older than the wheel, 'pip install depthprec-*.tar.gz' builds it from its sources"
+try:
+    library = ctypes.CDLL(os.path.join(os.path.dirname(os.path.abspath(__file__)), "libdepthprec.so.0"))
+except OSError as _error:
+    raise ImportError("depthprec: its library cannot be loaded: %s%s" % (_error, OLD)) from None
 
 TASKS = ("code", "eye", "width", "encode", "decode", "lo", "hi", "window", "separation", "interval")
 TASK = {name: number for number, name in enumerate(TASKS)}

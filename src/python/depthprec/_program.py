@@ -14,7 +14,7 @@ import tempfile
 import warnings
 
 from . import _arrays
-from ._core import Error
+from ._core import OLD, Error
 
 PATH = os.path.join(os.path.dirname(os.path.abspath(__file__)), "bin", "depthprec")
 FAILED, REFUSED = 1, 2  # exit statuses: a check failed, which is an answer; what was asked cannot be
@@ -46,6 +46,8 @@ def run(args, *, input=None, text=False):
     except OSError as error:
         raise Error("the program '%s' cannot be run: %s" % (PATH, error.strerror)) from error
     said = done.stderr.decode("utf-8", "replace").strip()
+    if done.returncode == FAILED and "GLIBC_" in said:  # the loader's own status
+        raise Error("the program cannot be run: %s%s" % (said.splitlines()[-1], OLD), REFUSED)
     if done.returncode not in (0, FAILED):
         raise Error(said.replace("depthprec: ", "", 1) or "the program ended by signal %d" % -done.returncode,
                     done.returncode)
