@@ -59,6 +59,13 @@ static const word_row rows[] = {
     {"W-buffer", "linear-depth",
      "eye depth over far, stored as it is: steps alike at every distance, but not linear on the screen", NULL,
      "table -F d16 -m d3d,linear\ntable -F d16 -m linear --viewport 1920x1080 --at 10"},
+    {"splat", "splats gaussian-splatting 3dgs sort-key splatSortDistanceMapPrecision",
+     "viewers sort Gaussian splats by 10 to 24 bits of z over the range of all, cut: as an orthographic depth; which "
+     "of "
+     "one key is drawn first does not depend on z",
+     "antimatter15/splat, main.js (16 bits); GaussianSplats3D, Viewer.js (16; 10 to 24); PlayCanvas, "
+     "gsplat-sort-worker.js (10 to 20, more of them near the camera)",
+     "table --ortho -n 0.5 -f 100 -F unorm16 -m d3d --rounding zero\ntable -F unorm16,unorm24 -m linear,reversed"},
     {"Hi-Z", "HiZ", "a pyramid of the nearest or farthest depth of 2 x 2 pixels", NULL,
      "texture d.npy --hi-z 1 -o half.npy"},
     {"depth bias", "polygonOffset glPolygonOffset offset slope-scaled",

@@ -15,6 +15,7 @@
 #include "method/cmd_methods/mine.h"
 #include "plot/figure.h"
 #include "quantity/cmd_table/constants.h"
+#include "quantity/cmd_table/in_preset.h"
 #include "quantity/cmd_table/levels.h"
 #include "scene/cmd_scene/drawing.h"
 #include "scene/find.h"
@@ -73,6 +74,11 @@ int constants_write(const table_request *o) {
 int solve_preset(const solve_request *o) {
     (void)o;
     return usage_error("solve for a number that a preset leaves open is not in the page: the program has it");
+}
+
+void in_preset_find(const table_request *o, in_preset *out) {
+    (void)o;
+    *out = (in_preset){.parameter = NULL};
 }
 
 bool levels_wanted(const table_request *o) {

@@ -397,3 +397,27 @@ TEST(choices) {
     json_decref(root);
     free(csv);
 }
+
+/* The key of a splat, as viewers compute it, is the code that the command of that word prints. */
+TEST(sort_keys) {
+    printed word = print_of("help splat");
+    const char *said = strstr(word.out, "table ");
+    assert_non_null(said);
+    const int length = (int)strcspn(said, "\n");
+    rng r = rng_make("sort keys");
+    char line[512];
+    size_t keys = 0;
+    for (int i = 0; i < 40; i++) {
+        const double z = rng_uniform(&r, 0.5, 100);
+        const long double key = ((long double)z - 0.5L) * 65535 / (100 - 0.5L);
+        if (key - floorl(key) < 1e-6L || key - floorl(key) > 1 - 1e-6L)
+            continue;
+        snprintf(line, sizeof line, "%.*s --at %.17g", length, said, z);
+        json_t *root = json_printed(0, "%s", line);
+        assert_true(number_at(root, "setups[0].rows[0].code") == (double)floorl(key));
+        json_decref(root);
+        keys++;
+    }
+    assert_true(keys > 30);
+    printed_free(&word);
+}

@@ -101,3 +101,31 @@ TEST(test_printed) {
     assert_false(keeps(said - 1, 0, 800, 100, (double)NAN, false)); /* steps come and go by less than a level */
     printed_free(&text);
 }
+
+/* In the middle of the globe, 700 pixels high, the near plane in place of the preset's. */
+static double behind_near(double zoom, double znear) {
+    double focus;
+    dp_spec spec = globe_at(zoom, 40, 700, &focus).spec;
+    dp_setup setup;
+    spec.znear = znear;
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    return dp_separation(&setup, focus);
+}
+
+/* table says it of three separations, beside whatever zoom is given; rounded to three digits. */
+TEST(test_in_table) {
+    printed text = print_of("table --preset maplibre-globe:zoom=3,height=700,latitude=40 -n 50m --at 1km");
+    const char *const names[] = {" 1 mm from zoom ", " 1 cm from zoom ", " 10 cm from zoom "};
+    const double limits[] = {0.001, 0.01, 0.1};
+    assert_int_equal(text.status, 0);
+    for (char *c = text.out; (c = strstr(c, "\n  ")) != NULL;)
+        memmove(c, c + 2, strlen(c + 2) + 1), *c = ' ';
+    for (int i = 0; i < 3; i++) {
+        const char *at = strstr(text.out, names[i]);
+        assert_non_null(at);
+        const double zoom = strtod(at + strlen(names[i]), NULL);
+        assert_true(behind_near(zoom, 50) <= limits[i]);
+        assert_true(behind_near(zoom - 0.2, 50) > limits[i]);
+    }
+    printed_free(&text);
+}

@@ -84,6 +84,11 @@ static void say_other_formats(page *p, void *of) {
     output_char(p->out, '\n');
     page_title(p, "rg, EncodeFloatRG, DepthNormals");
     page_note(p, "", "depth of Unity's DepthNormals, in steps of 1/65025 of far: for table and plot");
+    output_char(p->out, '\n');
+    page_title(p, "sort keys of Gaussian splats");
+    page_note(p, "",
+              "10 to 24 bits of z, as in unorm16 with --ortho -m d3d --rounding zero, near and far those of the "
+              "splats; of z over far: -m linear. 'depthprec help splat' has examples");
 }
 
 enum { WITH_CHOICES = 1 };

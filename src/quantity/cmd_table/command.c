@@ -15,6 +15,7 @@
 #include "quantity/cmd/resolved.h"
 #include "quantity/cmd_table/compare.h"
 #include "quantity/cmd_table/constants.h"
+#include "quantity/cmd_table/in_preset.h"
 #include "quantity/cmd_table/levels.h"
 #include "quantity/cmd_table/lookup.h"
 #include "quantity/cmd_table/per_vertex.h"
@@ -58,6 +59,7 @@ typedef struct worst {
 /* A separation, and the depths up to which it is guaranteed; NaN: not even at near, or nothing is at a slant. */
 typedef struct reach {
     double separation, facing, any_slant;
+    double from, to; /* the numbers of the preset that keep it */
 } reach;
 
 /* The state of a table; the fields below the range are of the set-up at hand. */
@@ -78,6 +80,7 @@ typedef struct table {
     char at_slant[NUMBER_SIZE + 4]; /* "at any slant" */
     double uncertain; /* the nearest depth shown before far whose guarantee is more than is left up to far; NaN: none */
     reach reach[RESOLVED_LIMITS];
+    in_preset in_preset;
     const dp_triangles *assumed; /* the view of those at a slant; null where it was given, or there is none */
     choosing choice;
     choice_fields chosen;
@@ -162,7 +165,7 @@ static void find_reach(table *t) {
         resolved_up_to(any_slant(t), unit, slanted);
     t->assumed = t->each.assumed.spec.triangles.width > 0 ? &t->each.assumed.spec.triangles : NULL;
     for (size_t i = 0; i < RESOLVED_LIMITS; i++)
-        t->reach[i] = (reach){resolved_limit(i, unit), facing[i], slanted[i]};
+        t->reach[i] = (reach){resolved_limit(i, unit), facing[i], slanted[i], t->in_preset.from[i], t->in_preset.to[i]};
 }
 
 static void *next_reach(void *of, size_t i) {
@@ -245,6 +248,10 @@ static void say_reach(page *p, void *item) {
         say_reach_of(p, t, false, each_setup_slanted(&t->each) ? t->at_slant : where, NULL);
     say_reach_of(p, t, true, SLANT_FACING ", " SLANT_AS_WALL,
                  any_slant(t) != NULL ? "Facing the camera, " SLANT_AS_WALL : NULL);
+    if (t->in_preset.parameter != NULL)
+        page_text(p, "Where %s looks, %s: %s.", t->o->camera.presets[0]->name,
+                  each_setup_slanted(&t->each) ? t->at_slant : SLANT_FACING,
+                  *t->in_preset.text != '\0' ? t->in_preset.text : "none of these separations at any number");
 }
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
@@ -256,7 +263,8 @@ enum {
     WITH_PRESETS = 8,
     WITH_TRIANGLES = 16,
     ONE_CAMERA = 32,
-    PER_VERTEX = 64
+    PER_VERTEX = 64,
+    IN_PRESET = 128
 };
 
 static const column row_columns[] = {
@@ -287,6 +295,8 @@ static const column row_columns[] = {
 static const column reach_columns[] = {{FIELD(reach, separation, "separation", "scene")},
                                        {FIELD(reach, facing, "facing_to", "scene")},
                                        {FIELD(reach, any_slant, "slanted_to", "scene")},
+                                       {FIELD(reach, from, "parameter_from", ""), .when = IN_PRESET},
+                                       {FIELD(reach, to, "parameter_to", ""), .when = IN_PRESET},
                                        {.kind = COLUMN_END}};
 
 #define CELL_END .digits_at = offsetof(worst, digits)
@@ -329,6 +339,7 @@ static const column setup_report[] = {
     {FIELD(table, interval.name, "method", ""), .only = AS_CSV, .when = WITH_TOLERANCE},
     {FIELD(table, each.fields.preset, "preset", ""), .only = AS_CSV, .when = WITH_PRESETS},
     {FIELD(table, each.fields.unit, "unit", ""), .only = AS_CSV, .when = WITH_PRESETS},
+    {FIELD(table, in_preset.parameter, "parameter", ""), .only = AS_JSON, .when = IN_PRESET},
     {LIST("resolved", reach_columns, next_reach), .only = AS_JSON},
     {PART(table, assumed, "assumed", slant_view_columns), .only = AS_JSON, .pointed = true, .optional = true},
     {PART(table, worst, "worst", worst_columns), .only = AS_JSON, .pointed = true},
@@ -415,7 +426,7 @@ static const column columns[] = {{PART(table, each.triangles, "triangles", slant
 static unsigned conditions(const table *t) {
     unsigned when = (option_given(t->o->line, "tolerance") ? WITH_TOLERANCE : 0) | (t->o->out.full ? VERBOSE : 0) |
                     (t->o->camera.preset_count > 1 ? WITH_PRESETS : ONE_CAMERA) |
-                    (t->each.triangles != NULL ? WITH_TRIANGLES : 0);
+                    (t->each.triangles != NULL ? WITH_TRIANGLES : 0) | (t->in_preset.parameter != NULL ? IN_PRESET : 0);
     for (size_t i = 0; i < t->each.all.count; i++) {
         when |= t->each.all.items[i].spec.model == DP_MODEL_FLOAT ? WITH_ARITH : 0;
         when |= per_vertex_matters(&t->each.all.items[i]) ? PER_VERTEX : 0;
@@ -442,6 +453,8 @@ int cmd_table(void *request) {
     }
     if (status == EXIT_FINE && compare_suits(&t.each, o))
         return compare_write(&t.each, o);
+    if (status == EXIT_FINE && o->out.form != FORM_CSV)
+        in_preset_find(o, &t.in_preset);
     const report_spec spec = {"table", columns, &t, .when = conditions(&t), .label = 16};
     return each_setup_write(&t.each, &spec, status);
 }

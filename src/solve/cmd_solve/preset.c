@@ -3,12 +3,14 @@
 #include "solve/preset.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "camera/cmd/setups.h"
 #include "camera/cmd/slant.h"
+#include "quantity/cmd/preset_run.h"
 #include "solve/cmd_solve/report.h"
 #include "solve/cmd_solve/request.h"
+
+enum { FEWEST = 5 }; /* digits of a number of the preset */
 
 typedef struct seeking {
     const solve_request *o;
@@ -42,36 +44,14 @@ static int check(const solve_request *o) {
 
 static preset_problem problem_of(const solve_request *o) {
     const bool chosen = option_given(o->line, "model") && !o->camera.model_auto;
-    const bool linear = dp_mapping_get(o->camera.mappings[0])->curve == DP_CURVE_LINEAR;
-    const bool range = option_given(o->line, "range"), at = o->camera.at.count > 0;
-    preset_problem p = {.spec = camera_to_spec(&o->camera.said),
-                        .row = o->camera.presets[0],
-                        .values = o->camera.values[0],
-                        .unit = o->camera.lengths.unit,
-                        .near_given = option_given(o->line, "near"),
-                        .far_given = option_given(o->line, "far"),
-                        .limit = o->separation,
-                        .lo = range ? o->camera.range_lo
-                              : at  ? o->camera.at.lo
-                                    : (double)NAN,
-                        .hi = range ? o->camera.range_hi
-                              : at  ? o->camera.at.lo
-                                    : (double)NAN};
-    if (!chosen)
-        p.spec.model = linear ? DP_MODEL_STAGED : DP_MODEL_FLOAT;
-    return p;
-}
-
-/* The fewest digits, five or more, that pass as they are typed. */
-static number_text typed(const seeking *s, double number, bool up) {
-    number_text out = number_full(number);
-    for (int digits = 5; digits < 16; digits++) {
-        const number_text few = up ? number_up(number, digits) : number_down(number, digits);
-        const double read = strtod(few.text, NULL);
-        if (read >= s->answer.from && read <= s->answer.to && preset_passes(&s->problem, read))
-            return few;
+    const bool range = option_given(o->line, "range");
+    preset_problem p = preset_problem_of(o->line, &o->camera, chosen);
+    p.limit = o->separation;
+    if (range || o->camera.at.count > 0) {
+        p.lo = range ? o->camera.range_lo : o->camera.at.lo;
+        p.hi = range ? o->camera.range_hi : o->camera.at.lo;
     }
-    return out;
+    return p;
 }
 
 static void say(page *p, void *item) {
@@ -79,26 +59,17 @@ static void say(page *p, void *item) {
     const preset_answer *a = &s->answer;
     const char *unit = camera_unit(&s->o->camera);
     const number_text limit = camera_length(&s->o->camera, s->problem.limit, 0);
-    const bool slanted = s->problem.spec.triangles.width > 0;
+    const bool slanted = s->problem.spec.triangles.width > 0, starts = a->below || !a->above;
     number_text at = number_in(number_of(s->lo, SOLVE_DIGITS), unit),
                 to = number_in(number_of(s->hi, SOLVE_DIGITS), unit);
-    char where[128], run[128], which[128];
+    char where[128], run[PRESET_RUN_SIZE], which[128];
     if (isnan(s->problem.lo))
         snprintf(where, sizeof where, "where %s looks", s->problem.row->name);
     else if (s->lo == s->hi)
         snprintf(where, sizeof where, "at z = %s", at.text);
     else
         snprintf(where, sizeof where, "from z = %s to %s", at.text, to.text);
-    const number_text from = typed(s, a->from, true), until = typed(s, a->to, false);
-    if (!a->possible || (!a->below && !a->above))
-        snprintf(run, sizeof run, "at %s %s from %s to %s", a->possible ? "each" : "no", s->parameter,
-                 number_full(a->least).text, number_full(a->most).text);
-    else if (!a->above)
-        snprintf(run, sizeof run, "from %s %s on", s->parameter, from.text);
-    else if (!a->below)
-        snprintf(run, sizeof run, "up to %s %s", s->parameter, until.text);
-    else
-        snprintf(run, sizeof run, "from %s %s to %s", s->parameter, from.text, until.text);
+    preset_run_text(&s->problem, a, FEWEST, run);
     camera_page(p, &s->o->camera);
     snprintf(which, sizeof which, "%s %s", s->problem.spec.format.name, dp_mapping_get(s->problem.spec.mapping)->name);
     page_text(p, "%s, %s: a separation of %s%s%s is %s %s %s.", s->preset, which, limit.text, slanted ? " at " : "",
@@ -112,7 +83,7 @@ static void say(page *p, void *item) {
         page_note(p, "planes", "near %s, far %s, z = %s at %s %s",
                   number_in(number_of(s->setup.spec.znear, 6), unit).text,
                   number_in(number_of(s->setup.spec.zfar, 6), unit).text, at.text, s->parameter,
-                  a->below || !a->above ? from.text : until.text);
+                  preset_typed(&s->problem, a, starts ? a->from : a->to, starts, FEWEST).text);
     if (a->possible)
         page_note(p, "tried", "%zu values of %s, all of which pass", a->tried, s->parameter);
     page_note(p, "model", "%s", option_word("model", s->problem.spec.model));
