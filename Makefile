@@ -218,7 +218,7 @@ WINDOWS_DYNAMIC = $(shell pkg-config --libs $(PKGS_build))
 endif
 windows_objects = $(patsubst %.c,$(B)/windows/obj/%.o,$(1))
 WINDOWS_CORE_O := $(call windows_objects,$(CORE) src/windows/fma.c)
-WINDOWS_O := $(call windows_objects,$(filter-out src/draw/canvas.c src/system/sandbox.c,$(ROOMS)) $(WINDOWS_CANVAS) \
+WINDOWS_O := $(call windows_objects,$(filter-out src/draw/canvas.c src/system/pager.c src/system/sandbox.c,$(ROOMS)) $(WINDOWS_CANVAS) \
     src/windows/posix.c)
 
 $(WINDOWS_ROOT)/lib/libwindows.a: src/windows/libraries.sh
@@ -331,7 +331,7 @@ npm:
 
 NPM_NOT := $(patsubst %,src/%.c,draw/canvas draw/pixels image/png method/cmd_methods/command cli/stop texture/strips \
     probe/opengl probe/vulkan probe/vulkan_compute probe/compile \
-    report/output_file report/terminal system/dynload system/sandbox)
+    report/output_file report/terminal system/dynload system/pager system/sandbox)
 NPM_O := $(call web_objects,$(filter-out $(NPM_NOT),$(ROOMS)) $(patsubst %,src/web/%.c,canvas engine plain still stream) \
     src/npm/standin.c)
 NPM_DOOR_O := $(call web_objects,src/npm/door.c)

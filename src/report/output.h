@@ -42,7 +42,8 @@ typedef struct output {
     const char *path; /**< the name for messages */
     char *target;     /**< what the temporary file is renamed to; null when writing straight */
     char *temporary;
-    int width; /**< characters in a line of text; 0: as the terminal or the page has it */
+    bool paged; /**< by a pager, on the terminal of stdout */
+    int width;  /**< characters in a line of text; 0: as the terminal or the page has it */
     output_colour colour;
     bool cells;           /**< U+001F stands before each cell of a table, for who makes another table of it */
     const char *measured; /**< of what was measured on a GPU: which; null where nothing was. Told beside the data */
@@ -63,6 +64,9 @@ int output_open(output *out, const char *path);
  * links that point nowhere are not tried. @return as output_open()
  */
 int output_check(const char *path);
+
+/** Gives what follows to a pager, where it is text for a terminal; of an output that was opened just now. */
+void output_page(output *out);
 
 /** Adds bytes. Failures are remembered for output_close(); a loop may ask output_failed() to stop early. */
 void output_bytes(output *out, const void *bytes, size_t size);

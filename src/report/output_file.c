@@ -8,6 +8,7 @@
 
 #include "report/message.h"
 #include "system/input.h"
+#include "system/pager.h"
 #include "system/process.h"
 
 /* The temporary files, for the signal handler: empty where there is none. */
@@ -118,6 +119,12 @@ int output_check(const char *path) {
     return status;
 }
 
+void output_page(output *out) {
+    const int fd = out->fd == STDOUT_FILENO ? pager_start() : -1;
+    out->paged = fd >= 0;
+    out->fd = out->paged ? fd : out->fd;
+}
+
 /* The file that a path would name, though it may not be there: its folder's identity and the name in it. */
 static bool name_in_folder(const char *path, struct stat *folder, const char **name) {
     *name = path_name(path);
@@ -187,6 +194,8 @@ int output_close(output *out) {
         return give_up_on_input(out);
     if (close(out->fd) != 0 && out->error == 0 && errno != EINTR)
         out->error = errno;
+    if (out->paged)
+        pager_wait();
     if (out->target != NULL && out->error == 0) {
         if (rename(out->temporary, out->target) == 0)
             out->temporary[0] = '\0';
@@ -195,6 +204,6 @@ int output_close(output *out) {
     }
     drop_temporary(out);
     if (out->error == EPIPE) /* the reader has seen enough */
-        return EXIT_IO;
+        return out->paged ? EXIT_FINE : EXIT_IO;
     return out->error == 0 ? EXIT_FINE : cannot_write(out->path, out->error);
 }

@@ -17,10 +17,15 @@ enum {
     INDENT = 2
 };
 
+/* The terminal that shows it, where it is one. */
+static int terminal_of(const output *out) {
+    return out->paged ? STDOUT_FILENO : out->fd;
+}
+
 static int width_of(const output *out) {
     if (out->width > 0)
         return out->width;
-    const int columns = terminal_columns(out->fd);
+    const int columns = terminal_columns(terminal_of(out));
     if (columns == 0)
         return PAGE_WIDTH;
     return columns > PAGE_LEAST ? columns : PAGE_LEAST;
@@ -28,12 +33,13 @@ static int width_of(const output *out) {
 
 page page_start(output *out, int label) {
     const char *term = getenv("TERM");
-    const bool suits = getenv("NO_COLOR") == NULL && term != NULL && strcmp(term, "dumb") != 0 && isatty(out->fd);
+    const bool suits =
+        getenv("NO_COLOR") == NULL && term != NULL && strcmp(term, "dumb") != 0 && isatty(terminal_of(out));
     const bool colour = out->colour == OUTPUT_COLOUR_AUTO ? suits : out->colour == OUTPUT_COLOUR_ALWAYS;
     return (page){.out = out,
                   .label = label,
                   .width = width_of(out),
-                  .fitted = out->width == 0 && terminal_columns(out->fd) > 0,
+                  .fitted = out->width == 0 && terminal_columns(terminal_of(out)) > 0,
                   .strong = colour ? "\033[1m" : "",
                   .soft = colour ? "\033[2m" : "",
                   .good = colour ? "\033[32m" : "",

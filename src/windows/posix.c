@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <stdarg.h>
 
+#include "system/pager.h"
 #include "system/posix.h"
 #include "system/sandbox.h"
 
@@ -218,6 +219,12 @@ sandbox_end sandbox_run(bool (*work)(void *of, FILE *out), void *of, sandbox_lim
 void sandbox_close(FILE *made) {
     (void)made;
 }
+
+int pager_start(void) {
+    return -1;
+}
+
+void pager_wait(void) {}
 
 /* ---- Text, time, order ------------------------------------------------------------------------------------------- */
 

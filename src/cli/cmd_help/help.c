@@ -231,6 +231,7 @@ static int refuse_word(const char *word) {
 static int say_word(const word_row *row) {
     output out;
     output_open(&out, NULL);
+    output_page(&out);
     page p = page_start(&out, 2);
     page_text(&p, "%s: %s", row->name, row->note);
     say_examples(&p, row->commands);
@@ -254,6 +255,7 @@ int cmd_help(void *request) {
         (o->line->operand_count > 1 || !names_find(o->line->command->names, o->line->operands[0], NULL, NULL)))
         return help_word(o);
     output_open(&out, NULL);
+    output_page(&out);
     page p = page_start(&out, 28);
     if (o->line->version)
         version(&p);

@@ -152,6 +152,8 @@ int cmd_list(void *request) {
         status = output_start(&o->out, NULL, &out);
     if (status != EXIT_FINE)
         return status;
+    if (o->out.form == FORM_TEXT)
+        output_page(&out);
     l.what = l.topic->name;
     if (l.word != NULL)
         write_word(&l, &out);
