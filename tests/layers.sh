@@ -16,7 +16,7 @@ src/quantity      | depthprec core quantity
 src/zfight        | depthprec core zfight
 src/convert       | depthprec core convert
 src/raster        | depthprec core raster
-src/shadow        | depthprec core bias image shader shadow
+src/shadow        | depthprec core bias image raster shader shadow
 src/windows       | system windows
 src/system        | windows system
 src/probe         | depthprec core system raster probe

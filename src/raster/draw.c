@@ -27,7 +27,7 @@ raster_status draw_camera_init(draw_camera *camera, const raster_row *row, const
         raster_target_init(&camera->target, index, view->width, view->height, &setup->spec.format, dp_path_best());
     if (status != RASTER_OK)
         return status;
-    if (setup->spec.ortho || dp_pipeline_init(&camera->pipeline, setup) != DP_OK ||
+    if (dp_pipeline_init(&camera->pipeline, setup) != DP_OK ||
         (camera->pipeline.ndc_signed && !camera->pipeline.arith->remap))
         return RASTER_MODEL;
     return RASTER_OK;
@@ -39,6 +39,29 @@ void draw_ray(const draw_camera *camera, const double window[2], double ray[3]) 
     ray[2] = 1.0;
 }
 
+bool draw_is_ortho(const draw_camera *camera) {
+    return draw_is_class(camera) ? camera->setup.spec.ortho != 0 : camera->pipeline.ortho != 0;
+}
+
+void draw_at(const draw_camera *camera, const double window[2], double z, double place[3]) {
+    const double along = draw_is_ortho(camera) ? 1.0 : z;
+    draw_ray(camera, window, place);
+    place[0] *= along;
+    place[1] *= along;
+    place[2] = z;
+}
+
+double draw_depth(const draw_camera *camera, const draw_plane *plane, const double window[2]) {
+    const double *n = plane->normal;
+    double place[3];
+    draw_at(camera, window, draw_is_ortho(camera) ? 0.0 : 1.0, place);
+    const double across = n[0] * place[0] + n[1] * place[1];
+    const double facing = draw_is_ortho(camera) ? n[2] : across + n[2];
+    return !(facing > 0.0)         ? (double)NAN
+           : draw_is_ortho(camera) ? (plane->distance - across) / facing
+                                   : plane->distance / facing;
+}
+
 double draw_facing(const draw_camera *camera, const draw_plane *plane, const double window[2]) {
     double ray[3];
     draw_ray(camera, window, ray);
@@ -47,7 +70,8 @@ double draw_facing(const draw_camera *camera, const draw_plane *plane, const dou
 
 raster_vertex draw_clip(const draw_camera *camera, const double place[3]) {
     const float x = (float)place[0], y = (float)place[1], z = (float)place[2];
-    return (raster_vertex){camera->p00 * x, camera->p11 * y, dp_pipeline_clip(&camera->pipeline, z), z};
+    return (raster_vertex){camera->p00 * x, camera->p11 * y, dp_pipeline_clip(&camera->pipeline, z),
+                           camera->pipeline.ortho ? 1.0F : z};
 }
 
 /* ---- The buffer -------------------------------------------------------------------------------------------------- */

@@ -65,9 +65,9 @@ typedef struct draw_buffer {
 /**
  * A camera of square pixels.
  * @param row    one of raster_get(); null: triangles are drawn as the class of the set-up has them, see draw_class.h
- * @param setup  a perspective in the arithmetic of raster_arith(), of GL's [-1, 1] with the remap in the vertex shader,
- * for the models take clip z from 0 to w; its triangles say the viewport and the field of view. Without a row any: an
- * orthographic view is as high as the perspective is at the depth 1
+ * @param setup  in the arithmetic of raster_arith(), of GL's [-1, 1] with the remap in the vertex shader, for the
+ * models take clip z from 0 to w; its triangles say the viewport and the field of view. An orthographic view is as high
+ * as the perspective is at the depth 1. Without a row any
  * @return RASTER_OK, or as raster_target_init(); RASTER_MODEL also where the set-up is no such one
  */
 raster_status draw_camera_init(draw_camera *camera, const raster_row *row, const dp_setup *setup);
@@ -78,7 +78,16 @@ raster_vertex draw_clip(const draw_camera *camera, const double place[3]);
 /** The ray through a place of the window: its eye coordinates at depth 1. */
 void draw_ray(const draw_camera *camera, const double window[2], double ray[3]);
 
-/** n . r of a place of the window: eye depth there is distance over this, where it is positive. */
+/** Whether its view is orthographic. */
+bool draw_is_ortho(const draw_camera *camera);
+
+/** The place in eye space that is seen there at a depth. */
+void draw_at(const draw_camera *camera, const double window[2], double z, double place[3]);
+
+/** The eye depth of a plane at a place of the window; NaN where its back is seen, or its edge. */
+double draw_depth(const draw_camera *camera, const draw_plane *plane, const double window[2]);
+
+/** n . r of a place of the window, of a perspective: eye depth there is distance over this, where it is positive. */
 double draw_facing(const draw_camera *camera, const draw_plane *plane, const double window[2]);
 
 /** Room for so many pixels. @return false when out of memory */

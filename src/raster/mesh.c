@@ -112,9 +112,10 @@ static bool has_shape(const double v[3][2], const dp_triangles *class) {
 }
 
 /* Whether vertices and pixels inside lie within a factor `depth` of each other; 1/z changes evenly on the screen. */
-static bool has_depth(const draw_camera *camera, const draw_plane *plane, const double facing[3],
+static bool has_depth(const draw_camera *camera, const draw_plane *plane, const double z[3],
                       const dp_triangles *class) {
     const double *n = plane->normal;
+    const double facing[3] = {plane->distance / z[0], plane->distance / z[1], plane->distance / z[2]};
     const double step = 2.0 * (fabs(n[0]) / ((double)camera->p00 * camera->target.width) +
                                fabs(n[1]) / ((double)camera->p11 * camera->target.height));
     const double least = fmin(fmin(facing[0], facing[1]), facing[2]);
@@ -144,19 +145,17 @@ static bool is_near(const draw_area *area, const double v[3][2]) {
 
 static bool draw_part(draw_buffer *buffer, const draw_camera *camera, const draw_plane *plane,
                       const double window[3][2], const dp_triangles *class, unsigned who) {
-    double place[3][3], facing[3];
+    double place[3][3], z[3];
     if (!is_near(&buffer->area, window))
         return false;
     for (int i = 0; i < 3; i++) {
-        facing[i] = draw_facing(camera, plane, window[i]);
-        const double z = plane->distance / facing[i];
-        if (!(facing[i] > 0.0) || !in_view(camera, window[i], z))
+        z[i] = draw_depth(camera, plane, window[i]);
+        if (!in_view(camera, window[i], z[i]))
             return false;
-        draw_ray(camera, window[i], place[i]);
-        for (int axis = 0; axis < 3; axis++)
-            place[i][axis] *= z;
+        draw_at(camera, window[i], z[i], place[i]);
     }
-    if (class != NULL && !(has_shape(window, class) && has_depth(camera, plane, facing, class)))
+    if (class != NULL &&
+        !(has_shape(window, class) && (draw_is_ortho(camera) || has_depth(camera, plane, (const double *)z, class))))
         return false;
     return draw_triangle(buffer, camera, (const double(*)[3])place, who);
 }

@@ -50,8 +50,8 @@ draw_shape draw_shape_of(const double v[3][2], int subpixel);
 /**
  * Draws a plane as the mesh's triangles, but for those that lie outside a class of triangles, have a vertex outside
  * the view, or are too near edge-on to have a depth.
- * @param class  null: any triangle. Its `depth` is taken of all pixels inside a triangle, up to `across` pixels beyond
- *               its edges, and its pixels and shape with what the subpixel grid may move; see dp_triangles
+ * @param class  null: any triangle. Its `depth` is, of a perspective, taken of all pixels inside a triangle, up to
+ * `across` pixels beyond its edges, and its pixels and shape with what the subpixel grid may move; see dp_triangles
  * @return how many were drawn
  */
 int draw_mesh_plane(draw_buffer *buffer, const draw_camera *camera, const draw_plane *plane, const draw_mesh *mesh,

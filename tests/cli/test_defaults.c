@@ -114,6 +114,7 @@ static const struct {
     {BIT(solve), IDS("model"), "float", NULL, ""},
     {BIT(bias), IDS("raster"), "llvmpipe", "bias -F fp32 -m d3d --units -1 --range 1:9 --rasterize", ""},
     {BIT(bias), IDS("viewport"), "1920x1080", "bias -F fp32 -m d3d --units -1 --range 1:9 --rasterize", ""},
+    {BIT(shadow), IDS("raster"), "llvmpipe", "shadow --light-box 9x9x9 --size 256 --rasterize", ""},
     {BIT(zfight), IDS("raster"), "llvmpipe", "zfight -F fp32 -m d3d --rasterize --sample 20", ""},
     {BIT(methods), IDS("format"), "unorm24", "methods interval --json", ""},
     {BIT(methods), IDS("mapping"), "d3d", "methods interval --json", ""},

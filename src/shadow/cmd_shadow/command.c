@@ -12,6 +12,7 @@
 #include "shadow/cmd_shadow/given.h"
 #include "shadow/cmd_shadow/request.h"
 #include "shadow/cmd_shadow/rows.h"
+#include "shadow/cmd_shadow/trial.h"
 
 enum { DIGITS_GAP = 3, DIGITS = 4, DIGITS_Z = 6 };
 
@@ -33,6 +34,9 @@ typedef struct shadow {
     shadow_whole whole;
     shadow_engine_row engine;
     bool missed; /* in some set-up the first engine's bias is not enough */
+    shadow_trial trial[SHADOW_TRIALS];
+    size_t trials;
+    int status; /* of what was drawn */
 } shadow;
 
 /* ---- Lists ------------------------------------------------------------------------------------------------------- */
@@ -67,6 +71,13 @@ static void *next_engine(void *of, size_t i) {
     const bool is = shadow_engine_row_of(&s->o, &s->maps, i, &s->engine);
     s->missed = s->missed || (is && i == 0 && !s->engine.enough);
     return is ? &s->engine : NULL;
+}
+
+static void *next_trial(void *of, size_t i) {
+    shadow *s = of;
+    if (i == 0 && s->status == EXIT_FINE)
+        s->status = shadow_try(&s->o, &s->maps, s->trial, &s->trials);
+    return s->status == EXIT_FINE && i < s->trials ? &s->trial[i] : NULL;
 }
 
 static void *next_setup(void *of, size_t i) {
@@ -306,6 +317,12 @@ static void say_notes(page *p, void *item) {
         page_note(p, "far plane", "a gap reaches beyond it: casters there cast no shadow");
 }
 
+static void say_trials(page *p, void *item) {
+    const shadow *s = item;
+    if (s->trials > 0)
+        shadow_say_trial(p, s->trial);
+}
+
 static void say_calls(page *p, void *item) {
     const shadow *s = item;
     page_line(p, "offset: %s", offset_words(s));
@@ -317,7 +334,7 @@ static void say_calls(page *p, void *item) {
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
 
-enum { ONE_API = 1, ALL_APIS = 2, SPLIT = 4, BOXED = 8, PLACED = 16, ENGINES = 32 };
+enum { ONE_API = 1, ALL_APIS = 2, SPLIT = 4, BOXED = 8, PLACED = 16, ENGINES = 32, DRAWN = 64 };
 
 /* The columns of a way in JSON and CSV, behind the name of the way. */
 #define NUMBERS(name, k)                                                                                               \
@@ -414,9 +431,12 @@ static const column setup_report[] = {
     {FIELD(shadow, lit.lo, "lit_from", "scene"), .only = AS_JSON},
     {FIELD(shadow, lit.hi, "lit_to", "scene"), .only = AS_JSON},
     {LIST("engines", shadow_engine_columns, next_engine), .only = AS_JSON, .when = ENGINES},
+    {LIST("drawn", shadow_trial_columns, next_trial), .only = AS_JSON, .when = DRAWN},
     {LIST("answers", whole_columns, next_whole), .only = AS_JSON},
     {LIST(NULL, shadow_engine_columns, next_engine), .only = AS_TEXT, .when = ENGINES, .head = say_blank,
      .notes = say_engines},
+    {LIST(NULL, shadow_trial_columns, next_trial), .only = AS_TEXT, .when = DRAWN, .head = say_blank,
+     .notes = say_trials},
     {LIST(NULL, whole_columns, next_whole), .only = AS_TEXT, .when = ALL_APIS, .notes = say_calls},
     {LIST(NULL, place_columns, next_row), .only = AS_TEXT, .when = ONE_API | SPLIT, .head = say_blank},
     {LIST(NULL, depth_columns, next_row), .only = AS_TEXT, .when = ONE_API | PLACED, .head = say_blank},
@@ -477,15 +497,19 @@ int cmd_shadow(void *request) {
         status = shadow_maps_make(o, &o->camera.formats[i / o->camera.mapping_count],
                                   o->camera.mappings[i % o->camera.mapping_count], &s.maps);
     if (status == EXIT_FINE)
+        status = shadow_check_trial(o);
+    if (status == EXIT_FINE)
         status = output_start(&o->out, &o->camera, &out);
     if (status != EXIT_FINE)
         return status;
     s.view = s.maps.view.count > 0 ? &s.maps.view : NULL;
     const bool one = s.api != NULL || o->shadow.distance;
     const unsigned when = (one ? ONE_API : ALL_APIS) | (s.view != NULL ? SPLIT : 0) |
-                          (s.maps.whole.kind != SHADOW_SUN ? PLACED : BOXED) | (o->shadow.engine != NULL ? ENGINES : 0);
+                          (s.maps.whole.kind != SHADOW_SUN ? PLACED : BOXED) |
+                          (o->shadow.engine != NULL ? ENGINES : 0) | (o->shadow.drawn ? DRAWN : 0);
     report_write(&(report_spec){"shadow", columns, &s, .when = when, .label = 14}, &out, o->out.form);
     status = output_close(&out);
+    status = status == EXIT_FINE ? s.status : status;
     if (status != EXIT_FINE || !o->shadow.checked)
         return status;
     for (size_t i = 0; i < s.setup_count && o->out.form == FORM_CSV; i++) { /* which has no engines */

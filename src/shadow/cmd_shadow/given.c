@@ -16,19 +16,11 @@ static const shadow_engine *engine_at(const shadow_request *o, size_t index) {
     return NULL;
 }
 
-static const shadow_light *map_of(const shadow_maps *maps, size_t i) {
-    return maps->whole.kind != SHADOW_SUN ? &maps->whole : &maps->items[i].light;
-}
-
-static size_t map_count(const shadow_maps *maps) {
-    return maps->whole.kind != SHADOW_SUN ? 1 : maps->count;
-}
-
 /* The numbers of the first engine; of the others those that do the same in the first map. */
 static void take_numbers(const shadow_request *o, const shadow_maps *maps, const shadow_engine *engine,
                          const bias_api *api, shadow_engine_row *out) {
     const shadow_engine *first = o->shadow.engine;
-    const shadow_light *light = map_of(maps, 0);
+    const shadow_light *light = shadow_map_of(maps, 0);
     const double *standard = first->standard[light->kind];
     out->bias = isnan(o->shadow.bias) ? standard[0] : o->shadow.bias;
     out->normal = first->normal == NULL          ? (double)NAN
@@ -60,8 +52,8 @@ bool shadow_engine_row_of(const shadow_request *o, const shadow_maps *maps, size
                                .acne = (double)NAN};
     take_numbers(o, maps, engine, api, out);
     const double bias = isnan(out->bias) ? 0.0 : out->bias, normal = isnan(out->normal) ? 0.0 : out->normal;
-    for (size_t i = 0; i < map_count(maps); i++) {
-        const shadow_light *light = map_of(maps, i);
+    for (size_t i = 0; i < shadow_map_count(maps); i++) {
+        const shadow_light *light = shadow_map_of(maps, i);
         const shadow_verdict v = shadow_judge_all(engine, light, api, bias, normal);
         const double least_bias = shadow_least_bias(engine, light, api, normal);
         const double least_normal = shadow_least_normal(engine, light, api, bias);

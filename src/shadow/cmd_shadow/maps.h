@@ -24,6 +24,15 @@ typedef struct shadow_maps {
  */
 int shadow_maps_make(const shadow_request *o, const dp_format *format, dp_mapping mapping, shadow_maps *out);
 
+/** The light of each map, all of its receivers. */
+static inline const shadow_light *shadow_map_of(const shadow_maps *maps, size_t i) {
+    return maps->whole.kind != SHADOW_SUN ? &maps->whole : &maps->items[i].light;
+}
+
+static inline size_t shadow_map_count(const shadow_maps *maps) {
+    return maps->whole.kind != SHADOW_SUN ? 1 : maps->count;
+}
+
 /** The API in which biases are counted: of distances, which no API biases, that of window depths. */
 const bias_api *shadow_asked_api(const shadow_request *o, size_t index);
 

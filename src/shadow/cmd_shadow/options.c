@@ -173,6 +173,13 @@ static const option_row shadow_rows[] = {
         .also = "normalBias shadow_normal_bias"},
     {"check", 0, NULL,
         "with --engine: exit with status 1 unless its bias is enough up to --angle, in every map", FLAG(checked)},
+    {"rasterize", 0, NULL,
+        "also draw random planes and casters into the map by --raster, and look their points up: how many have acne "
+        "without a bias, or with the engine's, and with each that is enough; and how many lose their shadow",
+        FLAG(drawn)},
+    {"render", 0, "FILE",
+        "with --rasterize: write a PNG of one plane and its casters with each bias in turn; acne is black, a lost "
+        "shadow yellow", FILE_WRITTEN(render)},
     {"from-origin", 0, "R",
         SHADOW_FROM_ORIGIN, LENGTH(world, 0, 1e18, "scene units"), .standard = "0", .without = SHADOW_FROM_ORIGIN_OUT},
     END};
@@ -185,6 +192,10 @@ static const option_rule shadow_rules[] = {CONFLICTS("spot", "point", NULL),
                                            NEEDS("check", "engine", ": it is its bias that is judged"),
                                            NEEDS("normal-bias", "engine", NULL),
 
+                                           NEEDS("render", "rasterize", NULL),
+                                           CONFLICTS("rasterize", "distance", ", which a fragment shader writes"),
+                                           CONFLICTS("rasterize", "curvature", ": it draws planes"),
+                                           CONFLICTS("rasterize", "arith", ": the rasterizer has its own"),
                                            CONFLICTS("distance", "api", ": no API biases what a shader writes"),
                                            {.option = NULL}};
 
@@ -231,8 +242,9 @@ static const option_use uses[] = {
     FOR(PART_CASCADES | PART_PLACE, of_planes), FOR(PART_CASCADES, of_cascades),
     FOR(PART_BOX | PART_PLACE, of_ranges), FOR(PART_PLACE, of_place), FOR(PART_CASCADES | PART_BOX, of_flat),
     GROUP_OF(shadow_map_uses), TAKE("spot"), TAKE("point"), TAKE("engine"), TAKE("bias"), TAKE("check"),
-    TAKE("normal-bias"),
-    TAKE("raster"), TAKE("subpixel"), TAKE("triangle-class"), TAKE("api"),
+    TAKE("normal-bias"), TAKE("rasterize"), TAKE("render"),
+    OWN("raster", ALSO("with --rasterize one that draws: llvmpipe, lavapipe, softpipe or swiftshader; by default "
+        "llvmpipe")), TAKE("subpixel"), TAKE("triangle-class"), TAKE("api"),
     GROUP_OF(output_written), END};
 /* clang-format on */
 
@@ -257,6 +269,8 @@ static size_t asked_part(const void *request) {
 
 static int complete(void *request) {
     shadow_request *o = request;
+    if (o->shadow.drawn && !option_given(o->line, "raster"))
+        option_set(o->line, "raster", "llvmpipe");
     bias_bring(o->line, &o->bias, &o->camera, false);
     if (o->shadow.filter > 0)
         o->shadow.kernel = o->shadow.filter;

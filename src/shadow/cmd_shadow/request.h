@@ -18,6 +18,8 @@ typedef struct shadow_asked {
     const struct shadow_engine *engine; /**< the first that was named, whose numbers are given; null: none */
     double bias, normal_bias;           /**< NaN when not given */
     bool checked;                       /**< whether an engine's bias is enough decides the exit status */
+    bool drawn;                         /**< --rasterize */
+    const char *render;                 /**< file of a picture; null when not given */
     double casters;                     /**< scene units */
     unsigned kernel;                    /**< the filter reads so many texels in either direction */
     unsigned filter;                    /**< the same of --filter; 0 when not given */
