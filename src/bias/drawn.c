@@ -36,6 +36,15 @@ void bias_draw_pair(bias_drawing *d, const bias_pair *pair) {
     }
 }
 
+/* The greater change of eye depth from one pixel to the next, at a place of the window where it is z. */
+static double slope_at(const bias_drawing *d, const draw_plane *plane, const double window[2], double z) {
+    const double right[2] = {window[0] + 0.5, window[1]}, left[2] = {window[0] - 0.5, window[1]};
+    const double above[2] = {window[0], window[1] + 0.5}, below[2] = {window[0], window[1] - 0.5};
+    const double across = draw_facing(d->camera, plane, right) - draw_facing(d->camera, plane, left);
+    const double up = draw_facing(d->camera, plane, above) - draw_facing(d->camera, plane, below);
+    return fmax(fabs(across), fabs(up)) * z * z / plane->distance;
+}
+
 bias_pixel bias_pixel_at(const bias_drawing *d, const bias_pair *pair, int x, int y) {
     const draw_area *area = &pair->area;
     const size_t at = (size_t)(y - area->y) * (size_t)area->width + (size_t)(x - area->x);
@@ -44,12 +53,30 @@ bias_pixel bias_pixel_at(const bias_drawing *d, const bias_pair *pair, int x, in
     const uint32_t below = d->layer[BELOW].key[at], biased = d->layer[BIASED].key[at];
     bias_pixel p = {.z = z};
     p.covered = d->layer[BELOW].seen[at] != 0 && d->layer[BIASED].seen[at] != 0 && z >= d->lo && z <= d->hi;
+    if (p.covered && d->slope > 0.0) /* the centre that was aimed at has it but for rounding */
+        p.covered = slope_at(d, &pair->plane, window, z) <= d->slope * (1.0 + 1e-9);
     if (!p.covered)
         return p;
     p.fights = biased >= below;
     p.code = draw_code(d->camera, below);
     p.moved = draw_code(d->camera, biased);
     return p;
+}
+
+/* A normal whose plane has that slope at z: steepest along x, y or neither. */
+static void normal_of_slope(const bias_drawing *d, const double window[2], double z, uint64_t *state, double n[3]) {
+    const draw_camera *c = d->camera;
+    const double share = 2.0 * draw_uniform(state) - 1.0, sign = draw_random(state) % 2 == 0 ? 1.0 : -1.0;
+    const bool along = draw_random(state) % 2 == 0;
+    const double x = d->slope * (along ? sign : share), y = d->slope * (along ? share : sign);
+    double ray[3];
+    draw_ray(c, window, ray);
+    n[0] = -x / z * (0.5 * c->target.width * (double)c->p00);
+    n[1] = -y / z * (0.5 * c->target.height * (double)c->p11);
+    n[2] = 1.0 - n[0] * ray[0] - n[1] * ray[1]; /* 1 along the ray */
+    const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (int i = 0; i < 3; i++)
+        n[i] /= length;
 }
 
 /* False where the plane is not seen at the pixel. */
@@ -62,6 +89,10 @@ static bool random_pair(const bias_drawing *d, uint64_t *state, bias_pair *out) 
     const double angle = out->slant * DP_DEGREE, z = draw_log_uniform(state, d->lo, d->hi);
     out->plane =
         (draw_plane){.normal = {dp_sin(angle) * dp_cos(azimuth), dp_sin(angle) * dp_sin(azimuth), dp_cos(angle)}};
+    if (d->slope > 0.0) {
+        normal_of_slope(d, window, z, state, out->plane.normal);
+        out->slant = dp_atan2(dp_hypot(out->plane.normal[0], out->plane.normal[1]), out->plane.normal[2]) / DP_DEGREE;
+    }
     for (int k = BELOW; k <= BIASED; k++) {
         out->mesh[k] = draw_mesh_random(t, window, state);
         out->mesh[k].lowest = BIAS_DRAWN_LOWEST;

@@ -29,6 +29,8 @@ typedef struct bias_drawing {
     const dp_setup *setup; /**< that of the camera, with its class */
     const bias_state *state;
     double lo, hi; /**< eye depths that count, 0 < lo <= hi, hi finite */
+    double slope;  /**< pixels count where the greater change of eye depth from one to the next is at most that, and
+                        each plane has a pixel of just that; 0: planes at any slant */
     draw_buffer layer[2];
 } bias_drawing;
 

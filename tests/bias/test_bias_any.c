@@ -277,10 +277,35 @@ TEST(rasterized) {
                "--raster llvmpipe --units 2");
     check_says(0, "none of", "%s --units 29 --factor 0.015380859375 --check", line);
     static const refused_row rows[] = {{"", "--units", 2},
-                                       {"--units 2 --slope 1", "--slope", 2},
                                        {"--units 2 --ortho", "--ortho", 2},
                                        {"--units 2 --raster spec-gl", "--raster", 2},
                                        {"--units 2 --render a.jpg", ".png", 2}};
     CHECK_REFUSED(line, rows);
     check_says(2, "--render", "bias -F fp32,d24 -m d3d --units -1 --rasterize --render a.png");
+}
+
+/* Planes of one slope: with the least that is told to be enough there none fights; with none of it many do. */
+TEST(rasterized_at_a_slope) {
+    static const char *const lines[] = {"-F fp32 -m reversed --api d3d11", "-F fp32 -m d3d --api metal",
+                                        "-F d24 -m d3d --api vulkan-exact", "-F d16 -m reversed --api d3d11"};
+    static const double slopes[] = {0.001, 0.01, 0.1};
+    tally enough = {.name = "enough at a slope"}, less = {.name = "fights at a slope"};
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
+        for (size_t k = 0; k < sizeof slopes / sizeof slopes[0]; k++) {
+            char line[160];
+            snprintf(line, sizeof line, "bias %s --range 1:60 --rasterize --slope %g", lines[i], slopes[k]);
+            const double sign = strstr(line, "reversed") != NULL ? 1.0 : -1.0;
+            json_t *bare = json_printed(0, "%s --units=%g", line, sign);
+            const double units = number_at(bare, "setups[0].sloped.units");
+            TALLY(&less, number_at(bare, "setups[0].drawn.fights") > 0, "%s", line);
+            TALLY(&less, strcmp(text_at(bare, "setups[0].sloped.answer"), "not enough") == 0, "%s", line);
+            json_t *told = json_printed(0, "%s --units=%.17g", line, units);
+            TALLY(&enough, strcmp(text_at(told, "setups[0].sloped.answer"), "enough") == 0, "%s: %g", line, units);
+            TALLY(&enough, number_at(told, "setups[0].drawn.fights") == 0, "%s: %g", line, units);
+            TALLY(&enough, number_at(told, "setups[0].drawn.pixels") > 1000, "%s", line);
+            json_decref(bare);
+            json_decref(told);
+        }
+    tally_end(&enough);
+    tally_end(&less);
 }

@@ -91,7 +91,7 @@ static void judge(biasing *b) {
         b->sloped = bias_judged_of(setup, &b->state, &goal, b->judged_lo, b->judged_hi);
     if (b->o->drawn && b->status == EXIT_FINE)
         b->status =
-            bias_try(b->o->camera.raster, &b->drawn.items[setup - b->each.all.items], &b->state,
+            bias_try(b->o->camera.raster, &b->drawn.items[setup - b->each.all.items], &b->state, b->o->bias.slope,
                      isnan(b->sloped.v.lo) ? b->judged_lo : b->sloped.v.lo,
                      isnan(b->sloped.v.hi) ? b->judged_hi : b->sloped.v.hi, b->o->render, &b->sloped, &b->trial);
     const bias_judged *strictest = b->when & OF_SLOPES ? &b->sloped : &b->facing;

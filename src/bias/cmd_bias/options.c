@@ -111,8 +111,8 @@ static const option_row check_rows[] = {
         "in place of a bias: another means, and its number, judged as a bias is, of layers that face the camera: @",
         .parse = parse_remedy, INTO(const remedy *, remedy), .names = &remedies, .without = "a bias"},
     {"rasterize", 0, NULL,
-        "also draw the layers as random triangles of random planes at any slant, by --raster: how many pixels fight "
-        "with the bias given, and one that does", FLAG(drawn)},
+        "also draw the layers as random triangles of random planes at any slant, or of --slope, by --raster: how many "
+        "pixels fight with the bias given, and one that does", FLAG(drawn)},
     {"render", 0, "FILE",
         "with --rasterize: write a PNG of the plane where most pixels fight; the layer is blue, pixels that show what "
         "is below it are yellow", FILE_WRITTEN(render)},
@@ -173,7 +173,6 @@ static const option_use uses[] = {
 static const option_rule rules[] = {
     CONFLICTS("remedy", "api units factor clamp slope viewport raster rasterize", ", which are of a bias"),
     NEEDS("check", "units remedy", ": it is a bias that is judged"),
-    CONFLICTS("rasterize", "slope", ", which draws surfaces at any slant"),
     CONFLICTS("rasterize", "ortho", ", which draws perspectives"),
     NEEDS("rasterize", "units", ": it is a bias that is drawn"),
     NEEDS("render", "rasterize", NULL),

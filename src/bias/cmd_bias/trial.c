@@ -66,13 +66,13 @@ static bias_trial told(const raster_row *row, const bias_drawn *drawn, const cha
     return t;
 }
 
-int bias_try(const raster_row *row, const dp_setup *setup, const bias_state *state, double lo, double hi,
+int bias_try(const raster_row *row, const dp_setup *setup, const bias_state *state, double slope, double lo, double hi,
              const char *render, bias_judged *judged, bias_trial *out) {
     draw_camera camera;
     const raster_status drawable = draw_camera_init(&camera, row, setup);
     if (drawable != RASTER_OK)
         return option_error("rasterize", "%s", raster_status_text(drawable));
-    bias_drawing d = {.camera = &camera, .setup = setup, .state = state, .lo = lo, .hi = hi};
+    bias_drawing d = {.camera = &camera, .setup = setup, .state = state, .lo = lo, .hi = hi, .slope = slope};
     int status = bias_drawing_open(&d) ? EXIT_FINE : usage_error("no memory to draw in");
     if (status == EXIT_FINE) {
         const bias_drawn drawn = bias_draw(&d, PAIRS, 0);

@@ -18,10 +18,11 @@ typedef struct bias_trial {
 /**
  * Draws a bias from lo to hi in a set-up of the model float, in the arithmetic of a rasterizer; a verdict that is open
  * becomes "not enough" where a pixel fights.
+ * @param slope   as bias_drawing has it
  * @param render  the picture's file; null: none
  * @return an exit status, after one line on stderr
  */
-int bias_try(const raster_row *row, const dp_setup *setup, const bias_state *state, double lo, double hi,
+int bias_try(const raster_row *row, const dp_setup *setup, const bias_state *state, double slope, double lo, double hi,
              const char *render, bias_judged *judged, bias_trial *out);
 
 extern const column bias_trial_columns[];
