@@ -2,7 +2,7 @@
 // Words, command lines and the fragment of the address. What a command means only the module knows.
 
 export const LONGEST = 4096; // characters of a fragment
-const plain = /^[A-Za-z0-9_=+,.:\/%@-]+$/;
+const bare = /^[A-Za-z0-9_=+,.:\/%@-]+$/;
 
 // The words of a line, in which quotes and backslashes are those of a shell. Throws a sentence.
 export function split(line) {
@@ -32,7 +32,12 @@ export function split(line) {
 
 // The line that a shell takes for these words.
 export const join = (words) =>
-    words.map((word) => (plain.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`)).join(" ");
+    words.map((word) => (bare.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`)).join(" ");
+
+// A message as the page says it: options have the names of their controls, where there are such. Lines that are a command
+// stay, and what only a command line has is left out.
+export const plain = (text) => text.replace(/ *--full\s+prints [^.]*\./, "").replaceAll(/^.*$/gm, (line) => (/(^|\s)depthprec [a-z]/.test(line) ? line
+    : line.replaceAll(/(?<![\w-])--([a-z][a-z-]*)/g, (_, name) => document.querySelector(`#a [data-option="${name}"]`)?.labels[0].textContent.trim() ?? name)));
 
 // The commands of a line: its words between those that are ";", each without "depthprec" in front.
 export function commands(line) {

@@ -103,6 +103,14 @@ export async function load(from, host = () => ({})) {
         return { status, out: streams.text(1), err: streams.text(2), left: streams.left };
     }
 
+    let own = null;
+    function say(name, ...numbers) {
+        const { exports, streams } = (own ??= begin());
+        streams.bytes[1] = [];
+        exports[name](...numbers);
+        return streams.text(1);
+    }
+
     const engine = {
         module,
         gpu: () => 1, // there is none; the page has one
@@ -158,11 +166,10 @@ export async function load(from, host = () => ({})) {
         },
 
         // The length at a step of a slider of the picture, 0 of gap and 1 of distance, with a unit or without.
-        lengthAt(axis, step, named) {
-            const { exports, streams } = begin(Infinity);
-            exports.picture_step(axis, step, named ? 1 : 0);
-            return streams.text(1);
-        },
+        lengthAt: (axis, step, named) => say("picture_step", axis, step, named ? 1 : 0),
+
+        // A number in few digits, rounded up (1), down (-1) or to the nearest (0).
+        number: (value, way) => say("number", value, way),
 
         // An instance that stays: { exports, memory }.
         instance: () => begin(),

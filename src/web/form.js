@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The controls: they are built, follow the state and change it.
-import { join, split } from "./command.js";
+import { join, plain, split } from "./command.js";
 import { later } from "./schedule.js";
 import { $, errorOf, fields, make, mapOf, page, set, start, state, takes, VIEW, VIEWPORT, words, world } from "./state.js";
 
@@ -220,7 +220,8 @@ export function fitQuestions() {
 
 export function refuseSetup(index, text) {
     const own = fields[index];
-    if (own.refused.textContent !== text) own.refused.textContent = text;
+    own.said = text;
+    if (own.refused.textContent !== plain(text)) own.refused.textContent = plain(text);
     for (const option of Object.keys(STARTS)) own[option].setAttribute("aria-invalid", text.startsWith(`--${option}: `));
 }
 
@@ -251,7 +252,6 @@ export function fill() {
     $("#add-b").setAttribute("aria-pressed", two);
     fillQuestions();
     for (const input of document.querySelectorAll("[name=figure]")) input.checked = input.value === state.figure;
-    for (const input of document.querySelectorAll("[data-shows]")) input.checked = state.shown.has(input.dataset.shows);
 }
 
 // The GPU's findings here, for set-up A.

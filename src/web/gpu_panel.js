@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the visitor's own GPU does: measured, drawn beside the model's picture, and running a function of the visitor's. All
 // of it is a command of the module's in the page's worker, see gpu.js; nothing of it leaves the page.
+import { plain } from "./command.js";
+
 let profile = "";
 export const profileText = () => profile;
 
@@ -8,7 +10,7 @@ export const profileText = () => profile;
 // changes it; frame() of the picture.
 export function createGpuPanel({ $, aside, judged, pictured, setup, take, frame }) {
     const ask = (line) => (aside.forget(line), aside.ask(line)); // a GPU may answer otherwise the next time
-    const fault = ({ status, err }) => (status === 0 ? "" : err.trim().replace(/^depthprec: /, ""));
+    const fault = ({ status, err }) => (status === 0 ? "" : plain(err.trim().replace(/^depthprec: /, "")));
 
     async function show(button, line, body, refused) {
         $(button).disabled = true;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A depth image of the visitor's: chosen or dropped anywhere on the page, and asked what the command texture asks: what its
 // samples are. What it holds, and how far a pixel may be off, is said by the module; image.js opens it there, in the worker.
-import { split } from "./command.js";
+import { plain, split } from "./command.js";
 
 const WINDOW = "window", SIDE = 640;
 const HOLDS = [
@@ -39,7 +39,7 @@ export function createImagePanel({ $, make, aside, setup, camera, take, otherWay
         const line = lineOf(said, ...what);
         return { line, answer: aside.ask(line, Infinity, { id: files, file, words: ["texture", file.name, ...said] }) };
     };
-    const fault = ({ err }) => err.trim().replace(`${file.name}: `, "");
+    const fault = ({ err }) => plain(err.trim().replace(`${file.name}: `, ""));
 
     async function paint() {
         const mine = shown, width = Math.min(facts.width, SIDE), height = Math.max(1, Math.round((width * facts.height) / facts.width));

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Panels show what the commands say; and what lies over a figure.
-import { join, split } from "./command.js";
+import { join, plain, split } from "./command.js";
 import { createOver, numberAt, readFigure, stepAt } from "./figure.js";
-import { ask, METRES, numberOf, refuseSetup, take } from "./form.js";
+import { ask, refuseSetup, take } from "./form.js";
 import { count, drawnRefusals, later, refusalOf, showKnown, showPicture, want } from "./schedule.js";
 import { sheet, withoutCells } from "./sheet.js";
 import {
-    $, askedOf, commandOf, errorOf, fields, lengthFor, link, make, page, REFUSED, set, SHARED, state, unitOf, waysLine, world,
+    $, commandOf, errorOf, fields, lengthFor, link, make, page, REFUSED, set, SHARED, state, unitOf, waysLine, world,
 } from "./state.js";
 
 // ---- What the panels show -----------------------------------------------------------------------------------------
@@ -96,9 +96,9 @@ function showFigure(one, svg) {
 export const narrow = () => NARROW.matches && !page.printing;
 
 function showText(one, verb, { out: text, left }) {
-    const whole = left > 0 ? `${text}\n... and ${Math.ceil(left / 1024)} KiB more: CSV has all\n` : text;
+    const whole = left > 0 ? `${plain(text)}\n... and ${Math.ceil(left / 1024)} KiB more: CSV has all\n` : plain(text);
     $("[data-output]", one).replaceChildren(...sheet(whole, narrow()));
-    if (verb !== "table") $(".answer", one).textContent = answers(withoutCells(text));
+    if (verb !== "table") $(".answer", one).textContent = answers(withoutCells(plain(text)));
 }
 
 // The outputs of a panel, those of set-ups that there are, and the command of one.
@@ -115,7 +115,7 @@ export function lineOf(verb, setup, one, colours = theme()) {
     return verb === "plot" ? [...line, ...(page.held === "" ? [] : ["--axes", page.held]), ...drawing(one, colours)] : line;
 }
 export const axesOf = ({ x, y }) => `${x.text},${y.text}`;
-const figures = () => [...document.querySelectorAll("[data-panel=plot]:not([hidden]) .figure:not([hidden])")];
+const figures = () => [...document.querySelectorAll("[data-panel=plot][open] .figure:not([hidden])")];
 export const axesNow = () => figures()[0]?.axes ?? null;
 
 function ghostOf(one, colours) {
@@ -139,17 +139,17 @@ function crossed({ x }) {
     const z = Number(page.crossing);
     return z < x.lo || z > x.hi ? numberAt(x, z < x.lo ? 0 : 1) : page.crossing;
 }
-const crossLine = (setup, axes) => askedOf("table", setup, { at: lengthFor(setup, crossed(axes)) });
-const reachLine = (setup) =>
-    askedOf("solve", setup, { for: "distance", separation: lengthFor(setup, state.asked.solve.get("separation") ?? "0"), json: "" });
+
+// The numbers of a figure, of each pixel column; they lie on the same places where its size is the same.
+function numbersLine(one) {
+    const line = lineOf("plot", state.setups[[...one.parentElement.children].indexOf(one)], one);
+    return [...line.filter((word, i) => !["--type", "-o", "--theme"].some((name) => name === word || name === line[i - 1])), "--csv"];
+}
 
 // Commands that say what lies over a figure.
 export function outputsOver(colours) {
-    const axes = axesNow(), [one] = figures(), ghost = one && ghostOf(one, colours);
-    if (axes === null || axes.x.key !== "z") return [];
-    const all = state.setups.map((setup) => ({ line: crossLine(setup, axes), over: true }));
-    if (axes.y.key === "interval") all.push(...state.setups.map((setup) => ({ line: reachLine(setup), over: true })));
-    return ghost ? [...all, { line: ghost, over: true }] : all;
+    const [one] = figures(), ghost = one && ghostOf(one, colours), resting = page.resting === null;
+    return [...figures().filter(({ axes }) => axes?.x.key === "z" && resting).map(numbersLine), ...(ghost ? [ghost] : [])].map((line) => ({ line, over: true }));
 }
 
 export function crossTo(text) {
@@ -170,55 +170,66 @@ function require(at, separation) {
     ask("gap", separation + unit);
 }
 
-// The depths up to which each set-up resolves what is required, in A's scene units.
-function reaches() {
-    const all = [], unit = METRES[unitOf(state.setups[0])] ?? 1;
-    state.setups.forEach((setup, i) => {
-        const said = page.aside.known(reachLine(setup)), table = page.aside.known(commandOf("table", setup));
-        if (!said || said.status === REFUSED || !/\x1f *guaranteed/.test(table?.out)) return; // or it is of several formats
-        const { possible, answer } = JSON.parse(said.out), own = METRES[unitOf(setup)] ?? unit;
-        if (answer) all.push({ letter: state.setups.length > 1 ? "AB"[i] : "", distance: possible ? (answer.distance * own) / unit : null });
-    });
-    return all;
-}
-
-const shortened = (number) => Number((number * (1 - 4e-6)).toPrecision(6)); // never above it
+// The gap at the distance, where they lie on A's axes, and up to where each set-up resolves it.
 function required() {
-    const asked = state.asked.solve, unit = unitOf(state.setups[0]), reach = reaches();
-    const [at, separation] = ["at", "separation"].map((name) => numberOf(asked.get(name) ?? "", unit));
-    const one = ({ letter, distance }) => `${letter} ${distance === null ? "fails everywhere"
-        : distance >= at ? "holds" : `fails beyond ${shortened(distance)}${unit && ` ${unit}`}`}`.trim();
-    const says = `${asked.get("separation")} at ${asked.get("at")}: ${reach.map(one).join(", ")}`;
-    return { at, separation, reach, says: `Required: ${says}` };
+    const [{ gap, distance } = {}] = page.facts, all = [];
+    const known = page.facts.slice(0, state.setups.length).map((one, i) => ({ letter: state.setups.length > 1 ? "AB"[i] : "", ...one }));
+    for (const { letter, resolved, enough, limit, distance: own } of known)
+        if (enough) all.push({ letter, distance: resolved ? Infinity : limit ? (limit.value * distance.value) / own.value : null,
+            says: `${letter} ${resolved ? "holds" : limit ? `fails beyond ${limit.text}` : "fails everywhere"}`.trim() });
+    return { at: distance?.value, separation: gap?.value, reach: all, says: `Required: ${world.gap} at ${world.distance}: ${all.map(({ says }) => says).join(", ")}` };
 }
 
-let crossedNow = []; // what the tables there are of
+const parted = (csv) => csv.trimEnd().split("\n").map((line) => line.split(/,(?=(?:[^"]*"[^"]*")*[^"]*$)/).map((cell) => cell.replaceAll('"', "")));
+
+// The points of a figure's numbers: each a row of a series, or of each column that has one.
+function pointsOf(csv, { x }) {
+    const [head, ...rows] = parted(csv), at = head.findIndex((title) => title.startsWith(x.key)), listed = head.includes("series");
+    return rows.flatMap((row) => head.slice(at + 1).map((title, i) => ({
+        name: [...row.slice(0, at), listed ? "" : title.split(" [")[0]].filter((name) => name !== "").join(": "),
+        unit: /\[(.*)\]/.exec(title)?.[1] ?? "", text: row[at + 1 + i], step: stepAt(x, Number(row[at])),
+    })).filter(({ text }) => text));
+}
+
+// What is drawn at the crosshair, of each curve the nearest point: some of stairs are far away.
+function valuesAt(points, step, stairs) {
+    const nearest = new Map(), within = stairs ? Infinity : 4;
+    for (const point of points) {
+        const apart = Math.abs(point.step - step);
+        if (apart <= within && !(apart >= nearest.get(point.name)?.apart)) nearest.set(point.name, { ...point, apart });
+    }
+    return [...nearest.values()];
+}
+
 function showCrossed(axes) {
     const unit = unitOf(state.setups[0]), z = crossed(axes), slider = $("#cross"), text = unit === "" ? z : `${z} ${unit}`;
     slider.value = stepAt(axes.x, Number(z));
     slider.setAttribute("aria-valuetext", text);
     $("#cross-is").textContent = text;
-    const all = state.setups.map((setup) => page.aside.known(crossLine(setup, axes)));
-    if (all.includes(undefined) || (all.length === crossedNow.length && all.every((said, i) => said === crossedNow[i]))) return;
-    crossedNow = all;
-    $("#crossed").replaceChildren(...all.flatMap((said, i) => {
-        const name = state.setups.length > 1 ? `${"AB"[i]} ` : "";
-        if (said.status === REFUSED) return [make("p", {}, `${name}${errorOf(said)}`)];
-        const tables = sheet(said.out, true).filter(({ tagName }) => tagName === "TABLE");
-        if (name !== "") for (const table of tables) table.createCaption().textContent = `Set-up ${name}${unitOf(state.setups[i]) && `(${unitOf(state.setups[i])})`}`;
-        return tables;
+    $("#crossed").replaceChildren(...figures().filter((one) => one.axes).map((one, i) => {
+        const said = page.aside.known(numbersLine(one)), table = make("table");
+        if (said !== undefined && said !== one.numbers)
+            [one.numbers, one.of, one.points] = [said, state.figure, said.status === 0 ? pointsOf(said.out, one.axes) : []];
+        const points = one.of === state.figure ? one.points : []; // or they are of the figure before
+        if (i > 0 || figures().length > 1) table.createCaption().textContent = `Set-up ${"AB"[i]}`;
+        for (const { name, unit: of, text: value } of valuesAt(points, Number(slider.value), axes.y.key === "depth")) {
+            const row = table.insertRow(), title = make("th", { scope: "row" }, name);
+            row.append(title, make("td", { class: "number" }, page.engine.number(Number(value), /codes|%/.test(of) ? 0 : /^per/.test(of) ? -1 : 1)),
+                make("td", {}, of.replace(/scene units?/, unit || "$&")));
+        }
+        return table;
     }));
 }
 
 export function showOver() {
-    const axes = axesNow(), has = axes !== null && axes.x.key === "z", wanted = required();
-    $("#crossing").hidden = !has;
+    const axes = axesNow()?.x.key === "z" ? axesNow() : null, wanted = required();
+    $("#crossing").hidden = axes === null;
     for (const one of figures()) {
-        one.over.show(one.axes?.x.key === "z" ? one.axes : null, has ? Number(crossed(axes)) : 0, wanted);
+        one.over.show(axes && (one.axes ?? null), axes && Number(crossed(axes)), wanted);
         showGhost(one);
     }
-    $("#required").textContent = has && axes.y.key === "interval" && wanted.reach.length > 0 ? `${wanted.says}.` : "";
-    if (has) showCrossed(axes);
+    $("#required").textContent = axes?.y.key === "interval" && wanted.reach.length > 0 ? `${wanted.says}.` : "";
+    if (axes !== null) showCrossed(axes);
 }
 
 // A set-up that is refused as a whole says so beside its controls; what was shown of it stays, paler.
@@ -228,14 +239,14 @@ export function showOutput(panel, one, index, said) {
     one.form = form;
     const verb = panel.dataset.panel, drawn = verb === "plot";
     const refused = said.status === REFUSED ? errorOf(said) : "";
-    const saidAbove = fields.some((own) => refused === own.refused.textContent);
+    const saidAbove = fields.some((own) => refused === own.said);
     one.classList.toggle("stale", refused !== "" && saidAbove);
     if (refused !== "" && saidAbove && one.said !== undefined) return;
     one.said = said;
     one.dataset.run = join(commandOf(verb, state.setups[index]));
     if (!drawn) showText(one, verb, said);
     else if (refused === "") showFigure(one, said.out);
-    $(".refused", one).textContent = refused;
+    $(".refused", one).textContent = plain(refused);
     for (const part of one.querySelectorAll(".stage, [data-output], .saves")) part.hidden = refused !== "";
 }
 
@@ -270,6 +281,6 @@ export function showForce(facts) {
 export function showHeadlines(facts) {
     $("#verdicts").replaceChildren(...state.setups.map((_, i) => {
         const { headline, facing, error } = facts[i] ?? {}, letter = state.setups.length > 1 ? [make("b", {}, "AB"[i]), " "] : [];
-        return make("p", {}, ...letter, headline ?? error ?? "", ...(facing ? [make("br"), make("span", { class: "facing" }, facing)] : []));
+        return make("p", {}, ...letter, headline ?? plain(error ?? ""), ...(facing ? [make("br"), make("span", { class: "facing" }, facing)] : []));
     }));
 }

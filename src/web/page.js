@@ -13,7 +13,7 @@ import { createPicture } from "./picture.js";
 import { heard, later, onScreen, release, showKnown, showPicture, showRun, want } from "./schedule.js";
 import { unpack } from "./unpack.js";
 import {
-    $, askedOf, commandOf, fields, FIGURES, link, make, mapOf, page, pictured, pictureLines, refuse, SCHEMES, SECOND, set, setLink,
+    $, commandOf, fields, FIGURES, link, make, mapOf, page, pictured, pictureLines, refuse, SCHEMES, SECOND, set, setLink,
     setTheme, shown, state, takes, unitOf, VERBS, words,
 } from "./state.js";
 
@@ -60,10 +60,10 @@ function listen() {
     }
     copies("#copy-profile", profileText);
     copies("#copy-commands", () => $("#link").textContent);
-    for (const input of document.querySelectorAll("[data-shows]"))
-        input.addEventListener("change", () => {
-            if (input.checked) state.shown.add(input.dataset.shows);
-            else state.shown.delete(input.dataset.shows);
+    for (const panel of document.querySelectorAll("details[data-panel]"))
+        panel.addEventListener("toggle", () => {
+            if (panel.open === state.shown.has(panel.dataset.panel)) return;
+            state.shown[panel.open ? "add" : "delete"](panel.dataset.panel);
             later();
         });
     for (const form of document.querySelectorAll("[data-asks]")) {
@@ -76,13 +76,13 @@ function listen() {
             later();
         });
     }
-    for (const name of FIGURES) {
+    for (const [name, title] of Object.entries(FIGURES)) {
         const input = make("input", { type: "radio", name: "figure", value: name, id: `figure-${name}` });
         input.addEventListener("change", () => {
             state.figure = name;
             later();
         });
-        $("#figures").append(make("span", {}, input, make("label", { for: input.id }, ` ${name}`)));
+        $("#figures").append(make("span", {}, input, make("label", { for: input.id }, ` ${title}`)));
     }
     $("#cross").addEventListener("input", () => crossTo(numberOfStep(axesNow().x, Number($("#cross").value))));
     addEventListener("pointerdown", () => (page.pressed = true), true);

@@ -104,6 +104,16 @@ PAGE_EXPORT("picture_step") void picture_step(int which, int step, int named) {
     fflush(NULL);
 }
 
+/** Prints a number of a figure: rounded up (1), down (-1) or to the nearest (0). */
+PAGE_EXPORT("number") void number_say(double value, int way) {
+    enum { SHOWN = 4 };
+    printf("%s", (way > 0   ? number_up(value, SHOWN)
+                  : way < 0 ? number_down(value, SHOWN)
+                            : number_of(value, SHOWN))
+                     .text);
+    fflush(NULL);
+}
+
 /* ---- The picture ------------------------------------------------------------------------------------------------- */
 
 /* Makes the picture of the first camera, format and mapping, where it can be drawn. */
@@ -159,8 +169,8 @@ static double reach_of(const dp_setup *setup) {
 
 static void print_place(const char *name, int which, double value, int way, const char *end) {
     if (isfinite(value))
-        printf("\"%s\": {\"step\": %d, \"text\": \"%s\"}%s", name, step_of(which, value),
-               length_in(which, value, way).text, end);
+        printf("\"%s\": {\"step\": %d, \"value\": %s, \"text\": \"%s\"}%s", name, step_of(which, value),
+               number_full(value).text, length_in(which, value, way).text, end);
     else
         printf("\"%s\": null%s", name, end);
 }

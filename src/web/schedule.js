@@ -30,12 +30,12 @@ export const onScreen = new Set();
 export function outputs(colours) {
     const all = state.setups.map((setup, index) => ({ index, line: commandOf("table", setup) }));
     if (all.length === 0) return []; // the first answer comes before the first set-up
-    const panels = [...document.querySelectorAll("[data-panel]:not([data-panel=view], [hidden])")];
+    const panels = [...document.querySelectorAll("[data-panel][open]")];
     for (const panel of panels.sort((a, b) => onScreen.has(b) - onScreen.has(a)))
         for (const [index, one] of outputsOf(panel).entries())
             all.push({ panel, one, index, line: lineOf(panel.dataset.panel, state.setups[index], one, colours) });
-    all.splice(state.setups.length, 0, { panel: $("#ways"), line: waysLine(), over: true }, ...outputsOver(colours));
-    return all;
+    all.splice(state.setups.length, 0, { panel: $("#ways"), line: waysLine(), over: true });
+    return [...all, ...outputsOver(colours)];
 }
 
 // Shows what is known; what is not is paler until it comes.
@@ -81,8 +81,7 @@ export function want() {
 export function update(dragged = false) {
     fitQuestions();
     for (const own of fields) own.showPlain();
-    for (const panel of document.querySelectorAll("[data-panel]"))
-        panel.hidden = panel.dataset.panel !== "view" && !state.shown.has(panel.dataset.panel);
+    for (const panel of document.querySelectorAll("details[data-panel]")) panel.open = state.shown.has(panel.dataset.panel);
     $("#link").textContent = shown().map((line) => `depthprec ${join(line)}`).join("\n");
     showPicture();
     clearTimeout(page.resting);
@@ -144,7 +143,7 @@ export function showPicture() {
     const lines = pictureLines(), [, second] = document.querySelectorAll("#picture figure");
     second.hidden = lines.length === 1;
     drawnRefusals = state.setups.map(refusalOf);
-    const facts = page.picture.set(lines.map((line, i) => ({ line, error: drawnRefusals[i] ?? "" })));
+    const facts = page.facts = page.picture.set(lines.map((line, i) => ({ line, error: drawnRefusals[i] ?? "" })));
     showWorld(facts);
     showForce(facts);
     showHeadlines(facts);

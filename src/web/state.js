@@ -18,7 +18,9 @@ export function make(name, attributes = {}, ...children) {
 // ---- What there is ------------------------------------------------------------------------------------------------
 
 export const VERBS = ["table", "plot", "solve", "bias", "budget", "zfight", "prepass"];
-export const FIGURES = ["interval", "error", "distribution", "budget", "share", "map"];
+export const FIGURES = {
+    interval: "what is resolved", error: "error", distribution: "codes per metre", budget: "causes", share: "codes beyond", map: "which near and far",
+};
 const LETTERS = { near: "-n", far: "-f", format: "-F", mapping: "-m" };
 // Options of the panels, and of a picture, are not those of a set-up.
 const ASKED = {
@@ -39,20 +41,20 @@ const UNUSED = {
     share: ["at", "tolerance", ...VIEW], map: ["tolerance", ...VIEW],
 };
 export const VIEWPORT = "1920x1080"; // at any slant is said of a view alone
-const STANDARD = `table -n 0.1 -f 1000 -F unorm24 -m d3d --viewport ${VIEWPORT} --unit m`;
+const STANDARD = `table -n 0.1 -f 1000 -F unorm24 -m d3d --unit m --viewport ${VIEWPORT} ; page table=shut`;
 export const SECOND = `table -n 0.1 -f 1000 -F fp32 -m reversed --viewport ${VIEWPORT} --unit m`;
 
 // What the modules share, once it is there: the program, its worker, the panels; and what is under way.
 export const page = {
     engine: null, aside: null, picture: null, gpuPanel: null, imagePanel: null, widths: null,
     linked: true, opened: false, printing: false, // what is shown came by the address; the link that the page was opened at is shown
-    pressed: false, steady: null, before: null, held: "", crossing: "100", // see outputs.js, what lies over a figure
+    pressed: false, steady: null, before: null, held: "", crossing: "100", facts: [], // see outputs.js, what lies over a figure
     resting: null, // while something is dragged, a timer
 };
 export const takes = {}; // options of each command
 // A page shows this at first: a link says only what differs from it.
 export const start = (world) => ({
-    setups: [], figure: "interval", shown: new Set(["table", "plot", "solve", "bias"]),
+    setups: [], figure: "interval", shown: new Set(), // panels that are open
     asked: {
         solve: new Map([["for", "near"], ["separation", world.gap], ["at", world.distance]]),
         bias: new Map([["separation", world.gap], ["at", world.distance], ["api", "all"]]),
@@ -106,13 +108,14 @@ export function shown() {
 
 // ---- The address --------------------------------------------------------------------------------------------------
 
-// What is seen beside the commands: gap and distance of the picture, as they were typed, and the colours.
+// What is seen beside the commands: gap and distance of the picture, as they were typed, the colours, and whether the
+// table is shut, which says the set-ups all the same.
 const LENGTH = /^\d[\d.e+-]*[a-z]{0,2}$/;
-const SEEN = { gap: LENGTH, distance: LENGTH, theme: /^(system|light|dark)$/ };
-const SEEN_FIRST = { ...WORLD, theme: "system" };
+const SEEN = { gap: LENGTH, distance: LENGTH, theme: /^(system|light|dark)$/, table: /^(open|shut)$/ };
+const SEEN_FIRST = { ...WORLD, theme: "system", table: "open" };
 
 function seen() {
-    const now = { ...world, theme: document.documentElement.dataset.theme ?? "system" };
+    const now = { ...world, theme: document.documentElement.dataset.theme ?? "system", table: state.shown.has("table") ? "open" : "shut" };
     return Object.entries(now).filter(([name, value]) => value !== SEEN_FIRST[name]).map((pair) => pair.join("="));
 }
 
@@ -129,19 +132,15 @@ function takeSeen(all) {
     return said;
 }
 
-function see({ gap, distance, theme }) {
+function see({ gap, distance, theme, table }) {
     Object.assign(world, { gap, distance });
+    if (table === "shut") state.shown.delete("table");
     setTheme(theme);
 }
 
 export function link() {
-    const first = start(world), simple = [...state.setups[0].keys()].every((name) => takes.table.has(name));
-    const asks = ({ asked }, verb) => join(words(asked[verb]));
-    const usual = simple && state.shown.size === first.shown.size &&
-        [...state.shown].every((verb) => first.shown.has(verb) && (verb in first.asked ? asks(state, verb) === asks(first, verb) : true));
-    const told = shown().filter(([verb]) => verb === "table" ||
-        (verb === "plot" ? !simple || state.figure !== first.figure : !usual));
-    return toFragment(seen().length === 0 ? told : [...told, ["page", ...seen()]]);
+    const fragment = toFragment([...shown(), ...(seen().length === 0 ? [] : [["page", ...seen()]])]);
+    return fragment === encodeURIComponent(STANDARD) ? "" : fragment;
 }
 // Not at each step of a drag: browsers count, and a set-up or a command that is refused is no link.
 export function showAddress() {
@@ -156,7 +155,7 @@ export function showAddress() {
 
 // The words of commands are put together before anything is taken: one that is refused leaves the page as it was.
 async function understand(all, from) {
-    const next = { setups: [], asked: { ...from.asked }, figure: from.figure, shown: new Set(["table", "plot"]) };
+    const next = { setups: [], asked: { ...from.asked }, figure: from.figure, shown: new Set() };
     if (all.length === 0) throw new Error("there is no command in it: table -n 0.1 -f 1000 is one");
     if (all.length > VERBS.length + 1) throw new Error(`the page shows at most ${VERBS.length + 1} commands`);
     for (const line of all) {
@@ -171,8 +170,8 @@ async function understand(all, from) {
             if (given.has(name)) throw new Error(`--${name} is for the command line`);
         for (const name of NEVER) given.delete(name);
         if (verb === "plot") {
-            if (!FIGURES.includes(operands[0]))
-                throw new Error(`the page draws ${FIGURES.join(", ")}, not ${operands[0]}: the program does`);
+            if (!Object.hasOwn(FIGURES, operands[0]))
+                throw new Error(`the page draws ${Object.keys(FIGURES).join(", ")}, not ${operands[0]}: the program does`);
             next.figure = operands[0];
             beside = given.get("beside");
             given.delete("beside");
@@ -198,7 +197,6 @@ async function understand(all, from) {
         }
     }
     if (all.length === 1) for (const verb of from.shown) next.shown.add(verb);
-    if (next.shown.size === 2) for (const verb of ["solve", "bias"]) next.shown.add(verb);
     return next;
 }
 
@@ -247,13 +245,6 @@ export const unitOf = (setup) => setup.get("unit") ?? "";
 export function lengthFor(setup, text) {
     const unit = unitOf(state.setups[0]);
     return unit === unitOf(setup) || !/[\d.]$/.test(text) ? text : text + unit;
-}
-
-// The command's words about a set-up alone, with other options in place of those about depths.
-const ABOUT_DEPTHS = ["at", "range", "depth", "code", "constants", "full"];
-export function askedOf(verb, setup, options) {
-    const given = new Map([...[...setup].filter(([name]) => !ABOUT_DEPTHS.includes(name)), ...Object.entries(options)]);
-    return [verb, ...words([...takes[verb].keys()].filter((name) => given.has(name)).map((name) => [name, given.get(name)]))];
 }
 
 // Other ways that do, each a button that does it, with what the engine's users write.

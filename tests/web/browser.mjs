@@ -27,13 +27,24 @@ function listen(page) {
     });
 }
 
-// The page at a fragment, once it is ready, or at once.
-export async function open({ fragment = "", theme = "light", width = 1600, height = 900, motion = "no-preference", mobile = false, wait = true } = {}) {
+// What a page that was opened at no link has folded.
+export const FOLDS = ["plot", "table", "solve", "bias"];
+const unfold = (page) => page.evaluate((names) => {
+    if (document.querySelector("[data-panel][open]") === null) for (const name of names) document.querySelector(`[data-panel=${name}]`).open = true;
+}, FOLDS);
+
+// The page at a fragment, once it is ready, or at once; unfolded where all is folded.
+export async function open({ fragment = "", theme = "light", width = 1600, height = 900, motion = "no-preference", mobile = false, wait = true, folded = false } = {}) {
     const context = await browser.newContext({ viewport: { width, height }, colorScheme: theme, reducedMotion: motion, hasTouch: mobile });
     const page = await context.newPage();
     listen(page);
     await page.goto(`${address}${fragment === "" ? "" : "#"}${fragment}`);
     if (wait) await page.waitForFunction(() => document.documentElement.dataset.ready !== undefined, null, { timeout: 30000 });
+    if (wait && !folded) {
+        await unfold(page);
+        await page.evaluate(() => new Promise((done) => setTimeout(() => requestAnimationFrame(() => requestAnimationFrame(done)), 50)));
+        await settled(page);
+    }
     return page;
 }
 

@@ -3,6 +3,7 @@
 // which set-up, is what the program prints for a command that is written here by hand.
 import { close, go, open, settled } from "./browser.mjs";
 import { native } from "./native.mjs";
+import { plain } from "./plain.mjs";
 import { demand, test } from "./tap.mjs";
 
 const A = ["-n", "0.1", "-f", "1000", "-F", "unorm24", "-m", "d3d", "--viewport", "1920x1080", "--unit", "m"];
@@ -81,7 +82,7 @@ async function setUp(page, which, [selector, value, changes, before = []]) {
     const said = await native(both), what = `${"AB"[which]}, ${selector} at ${value}`;
     for (let i = 0; i < 2; i++) {
         const { text, verdicts } = await seen(page, "table", i), far = both[i].includes("--ortho") ? null : await reach(both[i].slice(1));
-        demand(said[i].status === 0 && text === said[i].out, `${what}: ${both[i].join(" ")}\n${text}${said[i].out}${said[i].err}`);
+        demand(said[i].status === 0 && text === plain(said[i].out), `${what}: ${both[i].join(" ")}\n${text}${said[i].out}${said[i].err}`);
         if (verdicts[i] === `${"AB"[i]} Nothing is drawn 200 m away: the far plane cuts what is drawn.` && /far|unit/.test(selector)) continue;
         demand(verdicts[i].startsWith(`${"AB"[i]} 2 cm apart, 200 m away: `) && verdicts[i].includes("Facing the camera"), `${what}: above stands ${verdicts[i]}`);
         const [, number, unit] = /(?:up to|gap up to) ([\d.]+) (m|km)\./.exec(verdicts[i]) ?? [], shown = Number(number) * (unit === "km" ? 1000 : 1);
@@ -107,8 +108,8 @@ async function question(page, [panel, option, value, line]) {
     await put(page, `[data-asks=${panel}] [data-option=${option}]`, value);
     await settled(page);
     const [said] = await native([line]), { text, above } = await seen(page, panel, 0);
-    demand(said.status < 2 && text === said.out, `${option} at ${value}: ${line.join(" ")}\n${text}${said.out}${said.err}`);
-    if (panel === "solve") demand(above === sentence(said.out), `${option} at ${value}: above stands ${above}\nnot ${sentence(said.out)}`);
+    demand(said.status < 2 && text === plain(said.out), `${option} at ${value}: ${line.join(" ")}\n${text}${said.out}${said.err}`);
+    if (panel === "solve") demand(above === sentence(plain(said.out)), `${option} at ${value}: above stands ${above}\nnot ${sentence(said.out)}`);
 }
 
 const hashOf = (page) => decodeURIComponent(new URL(page.url()).hash.slice(1));
@@ -117,12 +118,14 @@ const shows = (page) => page.evaluate(() => [document.querySelector("#near-A").v
 
 // A link says what differs from a page that nobody has touched; each change is a step that Back undoes.
 async function address() {
-    const page = await open(), plain = "table -n 0.1 -f 1000 -F unorm24 -m d3d --unit m --viewport 1920x1080";
-    demand(hashOf(page) === plain, `the first link: ${hashOf(page)}`);
+    const page = await open({ folded: true }), camera = "table -n 0.25 -f 1000 -F unorm24 -m d3d --unit m --viewport 1920x1080";
+    const drawn = `${camera} ; plot share -n 0.25 -f 1000 -F unorm24 -m d3d --unit m`;
+    demand(hashOf(page) === "", `the first link: ${hashOf(page)}`);
     await put(page, "#near-A", "0.25");
-    demand(hashOf(page) === plain.replace("0.1", "0.25"), `near: ${hashOf(page)}`);
+    demand(hashOf(page) === `${camera} ; page table=shut`, `near: ${hashOf(page)}`);
+    for (const name of ["plot", "table"]) await updated(page, () => page.locator(`[data-panel=${name}] > summary`).click());
     await updated(page, () => page.locator("#figure-share").check());
-    demand(hashOf(page) === `${plain.replace("0.1", "0.25")} ; plot share -n 0.25 -f 1000 -F unorm24 -m d3d --unit m`, `figure: ${hashOf(page)}`);
+    demand(hashOf(page) === drawn, `figure: ${hashOf(page)}`);
     await updated(page, () => page.locator("#theme").click());
     await put(page, "#gap", 650);
     demand(hashOf(page).endsWith(" ; page gap=17.8cm theme=light"), `gap and theme: ${hashOf(page)}`);
@@ -132,13 +135,15 @@ async function address() {
     await other.waitForFunction(() => document.documentElement.dataset.ready !== undefined);
     demand(await shows(other) === "0.25 17.8cm light share", `reloaded: ${await shows(other)}`);
     await close(other);
-    const steps = ["0.25 2cm light share", "0.25 2cm system share", "0.25 2cm system interval", "0.1 2cm system interval"];
+    const steps = ["0.25 2cm light share plot table", "0.25 2cm system share plot table", "0.25 2cm system interval plot table",
+        "0.25 2cm system interval plot", "0.25 2cm system interval", "0.1 2cm system interval"];
+    const open_ = async () => [await shows(page), ...await page.evaluate(() => [...document.querySelectorAll("[data-panel][open]")].map((one) => one.dataset.panel))].join(" ");
     for (const step of steps) {
         await updated(page, () => page.goBack());
-        demand(await shows(page) === step, `back: ${await shows(page)}, not ${step}`);
+        demand(await open_() === step, `back: ${await open_()}, not ${step}`);
     }
     await updated(page, () => page.goForward());
-    demand(await shows(page) === steps[2], `forward: ${await shows(page)}`);
+    demand(await open_() === steps[4], `forward: ${await open_()}`);
     await close(page);
 }
 
@@ -219,7 +224,7 @@ async function plainNames() {
     ]) {
         await updated(page, () => button(name).click());
         const [said] = await native([line.split(" ")]), { text } = await seen(page, "table", 0);
-        demand(text === said.out && (await pressed()) === now, `${name}: ${await pressed()}\n${text}`);
+        demand(text === plain(said.out) && (await pressed()) === now, `${name}: ${await pressed()}\n${text}`);
     }
     await put(page, "#a [data-option=mapping]", "gl");
     await updated(page, () => button("reversed").click());
@@ -258,7 +263,7 @@ async function planes() {
         return [field.getAttribute("aria-invalid"), document.getElementById(field.getAttribute("aria-describedby")).textContent,
             document.querySelector("#far-A").getAttribute("aria-invalid")];
     });
-    demand(said[0] === "true" && said[1].startsWith("--near: ") && said[2] === "false", `refused: ${said}`);
+    demand(said[0] === "true" && said[1].startsWith("Near: ") && said[2] === "false", `refused: ${said}`);
     await close(page);
 }
 

@@ -21,7 +21,7 @@ const apart = (page, files) => page.evaluate(async (hrefs) => {
 }, files.map((file) => `data:image/png;base64,${readFileSync(file, "base64")}`));
 
 async function first() {
-    const page = await open({ width: 1280, height: 720, motion: "reduce" });
+    const page = await open({ width: 1280, height: 720, motion: "reduce", folded: true });
     await settled(page);
     await page.screenshot({ path: `${folder}/page.png` });
     const share = await apart(page, [`${folder}/page.png`, "plots/page.png"]);

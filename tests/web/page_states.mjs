@@ -4,6 +4,7 @@
 import { readFileSync } from "node:fs";
 import { address, close, go, open, settled, shown } from "./browser.mjs";
 import { difference, native } from "./native.mjs";
+import { plain } from "./plain.mjs";
 import { named, random, state } from "./states.mjs";
 import { demand, note, test } from "./tap.mjs";
 
@@ -52,7 +53,7 @@ async function compareShown(page, what) {
     const there = await native(runs.map((one) => words(one.run)));
     runs.forEach((one, i) => {
         const here = { out: one.text, err: one.refused };
-        const wrong = isEnded(one.refused) ? "" : difference({ out: there[i].out, err: refusal(there[i]) }, here);
+        const wrong = isEnded(one.refused) ? "" : difference({ out: plain(there[i].out), err: plain(refusal(there[i])) }, here);
         demand(wrong === "", `${what}: depthprec ${one.run}\n    ${wrong}`);
     });
     return { now, count: runs.filter((one) => !isEnded(one.refused)).length };
@@ -73,7 +74,7 @@ async function setOne(page, line, link, there, byLink) {
     demand(now.error === "" || isEnded(now.error), `${what}: ${now.error}`);
     const own = now.runs.find((one) => one.panel === verb);
     demand(own !== undefined, `${what}: there is no panel ${verb}`);
-    if (verb !== "plot" && !isEnded(own.refused)) demand(own.text === there.out, `${what}: shown is ${own.run}`);
+    if (verb !== "plot" && !isEnded(own.refused)) demand(own.text === plain(there.out), `${what}: shown is ${own.run}`);
     return count;
 }
 
