@@ -159,6 +159,9 @@ function grid({ raster, subpixel }) {
     return subpixel ?? bits;
 }
 
+// Near, far and whether it is orthographic the matrix says.
+const MATRIX_KEYS = ["layout", ...Object.keys(USUAL).filter((key) => !["near", "far", "ortho"].includes(key))];
+
 let ready = {}; // what the module is prepared for
 const PLANES = ["nearLeast", "nearMost", "farLeast", "farMost", "nearDigits", "farDigits"]; // as door.c has them
 
@@ -199,7 +202,8 @@ export class Camera {
         Object.freeze(this);
     }
 
-    static fromMatrix(matrix, { mapping, layout, ...more } = {}) {
+    static fromMatrix(matrix, options) {
+        const { mapping, layout, ...more } = only(options, MATRIX_KEYS, "options of fromMatrix");
         if (Array.isArray(matrix?.elements)) matrix = matrix.elements; // three.js
         const flat = Array.isArray(matrix) && matrix.every((row) => Array.isArray(row) || ArrayBuffer.isView(row)) ? matrix.map((row) => Array.from(row)).flat() : matrix;
         const given = elements(flat, "a matrix");

@@ -122,6 +122,8 @@ test("cameras of matrices", () => {
     refuses(() => Camera.fromMatrix(all[0][1], { mapping: "log" }), /mapping must be one of/);
     refuses(() => Camera.fromMatrix(all[0][1], { mapping: "d3d", layout: "up" }), /layout must be/);
     refuses(() => Camera.fromMatrix([[1, 0], [0, 1]]), /16 numbers, got 4/);
+    for (const key of ["near", "far", "ortho", "metric"])
+        refuses(() => Camera.fromMatrix(all[0][1], { mapping: "d3d", [key]: 3 }), new RegExp(`options of fromMatrix must have no '${key}'`), TypeError);
     refuses(() => Camera.fromMatrix(new Array(16).fill(0)), /fourth row must be .*, got 0 0 0 0$/);
     refuses(() => Camera.fromMatrix(new Array(16).fill(NaN)), /finite/);
     refuses(() => Camera.fromMatrix([[2, 0, 0, 0], [0, 3, 0, 0], [0.1, 0, -4 / 3, -4 / 3], [0, 0, -1, 0]], { mapping: "d3d" }), /the same for every pixel/);

@@ -23,6 +23,35 @@ test("with options as words and as an object they are the program's commands", a
     for (const asked of [["table", "-n", "0.3"], ["help"], ["budget", "--csv"], ["plot", "error", "-n", "0.1", "--type", "svg", "-o", "-"]]) assert.equal(await run(asked), native(asked));
 });
 
+// Each key of a camera off its default, by itself, beside the program; what that refuses is refused.
+test("each key of a camera reaches the command", async () => {
+    const view = { viewport: [1280, 720] }, seen = new Set(), answers = new Set();
+    const keys = [[{}, []], [{ ortho: true }, ["--ortho"]], [{ rounding: "zero" }, ["--rounding=zero"]], [{ mapping: "cesium", logC: 2 }, ["--mapping=cesium", "--log-c=2"]],
+        ...["fused", "mesa", "nvidia"].map((arith) => [{ arith }, [`--arith=${arith}`]]), [view, []], [{ ...view, fov: 35 }, ["--fov=35"]], [{ ...view, subpixel: 4 }, ["--subpixel=4"]],
+        [{ ...view, raster: "spec-gl" }, ["--raster=spec-gl"]], [{ ...view, raster: "spec-d3d" }, ["--raster=spec-d3d"]], [{ ...view, raster: "spec-vulkan", subpixel: 6 }, ["--raster=spec-vulkan", "--subpixel=6"]],
+        [{ ...view, slant: [10, 70] }, ["--slant=10:70"]], [{ ...view, triangleClass: [3, 64, 8] }, ["--triangle-class=depth=3,pixels=64,slim=8"]],
+        [{ near: 0.7 }, ["--near=0.7"]], [{ far: 900 }, ["--far=900"]], [{ format: "fp32" }, ["--format=fp32"]]];
+    for (const [call, verb, asked] of [[bias, "bias", { api: "vulkan", separation: 0.5, at: 300 }], [solve, "solve", { for: "separation", at: 100 }]])
+        for (const [given, more] of keys) {
+            Object.keys(given).forEach((key) => seen.add(key));
+            const usual = [["near", 0.2], ["far", 3000], ["format", "unorm24"], ["mapping", "d3d"]].filter(([key]) => given[key] === undefined).map(([key, value]) => `--${key}=${value}`);
+            const line = [verb, ...usual, ...(given.viewport ? ["--viewport=1280x720"] : []), ...more, ...Object.entries(asked).map(([key, value]) => `--${key}=${value}`), "--json"];
+            const own = new Camera({ near: 0.2, far: 3000, format: "unorm24", ...given });
+            let want;
+            try {
+                want = JSON.parse(native(line));
+            } catch {
+                await refuses(() => call({ camera: own, ...asked }), /./);
+                continue;
+            }
+            const got = await call({ camera: own, ...asked });
+            assert.deepEqual(got, want, line.join(" "));
+            answers.add(JSON.stringify(got));
+        }
+    assert.deepEqual([...seen].sort(), Object.keys(new Camera()).filter((key) => !/Least|Most|Digits|codeMax|model/.test(key)).sort());
+    assert.ok(answers.size > 2 * keys.length - 6, `${answers.size} answers of ${2 * keys.length}: keys that change nothing`);
+});
+
 test("requirements are an object", async () => {
     const needs = { unit: "m", cameras: { world: new Camera({ far: Infinity, mapping: "reversed" }), web: { near: "50 cm", far: 2000, format: "unorm24", mapping: "d3d" } },
         requirements: { decals: { camera: "world", range: [0.5, 50], separation: "0.1 mm" }, props: { camera: "web", at: "1 km", separation: "1 mm" } } };

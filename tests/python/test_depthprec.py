@@ -438,6 +438,28 @@ class Program(unittest.TestCase):
             os.chmod(path, 0o440)
             self.assertRaises(Error, depthprec.write, path, z, metric=1)
 
+    def test_keys_of_images(self):
+        """Each key of a camera that images know, off its default, in read(), write() and recognise()."""
+        codes = memoryview(array.array("H", [3, 1, 40000, 60000, 7, 65000])).cast("B").cast("H", (2, 3))
+        folder, answers = tempfile.mkdtemp(), []
+        source, made, own = (os.path.join(folder, name) for name in ("in.npy", "made.npy", "own.npy"))
+        with open(source, "wb") as file:
+            file.write(_program._npy(codes))
+        for key, given, words in (({}, {}, []), ({"near": 0.7}, {}, []), ({"far": 90}, {}, []), ({"mapping": "reversed"}, {}, []),
+                                  ({"ortho": True}, {}, ["--ortho"]), ({"rounding": "zero"}, {}, ["--rounding=zero"]),
+                                  ({"mapping": "log", "log_c": 2.0}, {}, ["--log-c=2"]), ({}, {"sky": 0}, ["--sky=0"])):
+            kept = {"near": 0.5, "far": 50, "format": "unorm16", "mapping": "gl", **key}
+            line = ["--%s=%s" % (name, kept[name]) for name in ("near", "far", "format", "mapping")] + words
+            program("texture", source, *line, "--product=eye", "-o", made, "--json", "-q")
+            depthprec.write(own, codes, Camera(**kept), **given)
+            with open(own, "rb") as first, open(made, "rb") as second:
+                self.assertEqual(first.read(), second.read(), line)
+            want = json.loads(program("texture", source, *line, "--json", "-q"))
+            found = depthprec.recognise(source, Camera(**kept), **given)
+            self.assertEqual([found["format"], found["reversed"]], [want["recognised"][name] for name in ("format", "reversed")])
+            answers.append((memoryview(depthprec.read(source, Camera(**kept), **given)).tolist(), json.dumps(want)))
+        self.assertEqual(len({text for _, text in answers}), len(answers))
+
     def test_lists(self):
         self.assertEqual(depthprec.presets(), json.loads(program("list", "presets", "--json"))["items"])
         self.assertEqual([row["name"] for row in depthprec.formats()][:1], ["fp16"])
@@ -485,6 +507,36 @@ class Program(unittest.TestCase):
         if numpy is not None:
             whole = ma.array([1.0, 2.0], mask=False)
             self.assertEqual(list(c.encode(whole)), list(c.encode([1.0, 2.0])))
+
+    def test_order(self):
+        """What a camera was asked for before, and in which types, is forgotten; so is what was refused in between."""
+        z, stored = [0.5, 3.0, 70.0, 800.0], [65535, 9000, 12, 0]
+        reals, whole = [array.array(code, z) for code in "fd"], [array.array(code, stored) for code in "HI"]
+        shown = lambda got: [list(x) for x in got] if isinstance(got, depthprec.Decoded) and hasattr(got[0], "__len__") else \
+            list(got) if hasattr(got, "__len__") else got
+        calls = [lambda c: c.encode(3.0), lambda c: c.decode(9000), lambda c: c.decode(9000, bounds=True), lambda c: c.worst(1, 5),
+                 lambda c: c.decode_window(0.5, bounds=True), lambda c: c.decode_window(array.array("f", [0.25, 1]))]
+        calls += [lambda c, m=m: getattr(c, m)(3.0) for m in ("separation", "lattice", "interval", "window_depth")]
+        calls += [lambda c, m=m, x=x: getattr(c, m)(x) for m in ("separation", "lattice", "interval", "window_depth") for x in reals]
+        calls += [lambda c, x=x, o=o: c.encode(x, out=array.array(o, bytes(4 * array.array(o).itemsize))) for x in reals for o in "HI"]
+        calls += [lambda c, x=x, o=o: c.decode(x, out=array.array(o, bytes(4 * array.array(o).itemsize))) for x in whole for o in "fd"]
+        calls += [lambda c, x=x: c.decode(x, bounds=True) for x in whole]
+        refused = [lambda c: c.encode("3"), lambda c: c.decode(-1), lambda c: c.separation(1e9), lambda c: c.decode(whole[0], out=whole[0]),
+                   lambda c: c.separation(reals[0], out=reals[1]), lambda c: c.worst(5, 1), lambda c: c.decode_window(2.0)]
+        fresh = lambda: Camera(0.5, 800, "unorm16", "reversed")
+        want = [repr(shown(call(fresh()))) for call in calls]
+        for first in calls + refused:
+            c = fresh()
+            if first in refused:
+                self.assertRaises((ValueError, TypeError), first, c)
+            else:
+                first(c)
+            for call, expected in zip(calls, want):
+                self.assertEqual(repr(shown(call(c))), expected)
+        c = fresh()
+        for k in range(300):
+            pick = generator("order%d" % k).randrange(len(calls))
+            self.assertEqual(repr(shown(calls[pick](c))), want[pick], (k, pick))
 
     def test_refused(self):
         for words, said in (("tabl", "did you mean"), ("plot error --type pdf -o x.pdf", "rsvg-convert"),
@@ -841,6 +893,17 @@ class Memory(unittest.TestCase):
                 got = c.encode(given)
                 self.assertEqual([type(got), got.dtype, got.shape], [numpy.ndarray, numpy.uint32, given.shape])
             self.assertTrue((c.encode(z) == want).all() and (c.encode(z.T) == want.T).all())
+            for given in (z.T, numpy.asfortranarray(z), z.reshape(2, 10, 30).T):  # in Fortran's order, as they lie
+                for method in (c.encode, c.window_depth, c.separation, c.lattice, c.interval):
+                    got, straight = method(given), method(numpy.ascontiguousarray(given))
+                    self.assertTrue(got.flags.fnc and got.dtype == straight.dtype and (got == straight).all())
+                stored = c.encode(given)
+                for got, straight in zip(c.decode(stored, bounds=True), c.decode(numpy.ascontiguousarray(stored), bounds=True)):
+                    self.assertTrue(got.flags.fnc and (got == straight).all())
+                out = numpy.empty(given.shape, numpy.uint32)
+                self.assertTrue((c.encode(given, out=out) == stored).all() and out.flags.c_contiguous)
+                with self.assertRaisesRegex(ValueError, "out must be contiguous"):
+                    c.encode(given, out=numpy.asfortranarray(out))
             self.assertTrue((c.encode(z[::2, ::3]) == want[::2, ::3]).all())
             z.flags.writeable = False
             self.assertEqual(_arrays.address(_arrays.given(z, "z")), z.ctypes.data)

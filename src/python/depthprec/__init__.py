@@ -229,6 +229,7 @@ class Camera:
         """The code of window depth 1."""
         return self._setups["own"].spec.format.code_max
 
+    @_arrays.as_it_lies
     def encode(self, z, *, out=None):
         """The codes that are stored for eye depths, correctly rounded for every double.
 
@@ -244,6 +245,7 @@ class Camera:
             return self._number("code", _number(z, "an eye depth"), write=_ctypes.c_uint32)
         return self._fill("code", z, read, out)
 
+    @_arrays.as_it_lies
     def decode(self, codes, *, bounds=False, out=None):
         """The eye depths that codes give back; those of window depths are decode_window()'s.
 
@@ -269,6 +271,7 @@ class Camera:
         got = [self._number(name, code, read=_ctypes.c_uint32) for name in names]
         return Decoded(*got) if bounds else got[0]
 
+    @_arrays.as_it_lies
     def decode_window(self, depths, *, bounds=False, out=None):
         """The eye depths that window depths give back, as they are read from a buffer: each counts as the nearest code.
 
@@ -292,6 +295,7 @@ class Camera:
         _core.demand(_core.batch_windows(self._setups["own"], 1, _ctypes.byref(given), *map(_ctypes.byref, got), 1))
         return Decoded(*(x.value for x in got)) if bounds else got[0].value
 
+    @_arrays.as_it_lies
     def window_depth(self, z, *, out=None):
         """The window depth in [0, 1] of eye depths, before the buffer rounds it: within 2^-50 relative, and rounded
         once more where z is float32.
@@ -302,6 +306,7 @@ class Camera:
         """
         return self._map("window", z, out)
 
+    @_arrays.as_it_lies
     def separation(self, z, *, out=None, quick=False):
         """How far behind z a surface must lie to be resolved: guaranteed, despite the rounding of shader, viewport and
         buffer. With a viewport: how far in front of z, along the normal, at any slant.
@@ -325,6 +330,7 @@ class Camera:
                 return self._calls["table"].at(numpy.asarray(read))
         return self._map("separation", z, out)
 
+    @_arrays.as_it_lies
     def lattice(self, z, *, out=None):
         """The same in exact arithmetic: one step of the format, what no implementation can be better than.
 
@@ -333,6 +339,7 @@ class Camera:
         """
         return self._map("lattice", z, out)
 
+    @_arrays.as_it_lies
     def interval(self, z, *, out=None):
         """The z-fighting interval: the width of the cell around z, whose depths all get the same code.
 

@@ -44,6 +44,18 @@ def numpy_module():
     return importlib.import_module("numpy") if importlib.util.find_spec("numpy") else None
 
 
+def as_it_lies(method):
+    """Arrays of numpy in Fortran's order are read as they lie, and their results lie so, too, where no `out` is given."""
+    @functools.wraps(method)
+    def work(self, values, **options):
+        if not getattr(getattr(values, "flags", None), "fnc", False) or options.get("out") is not None:
+            return method(self, values, **options)
+        made = method(self, values.T, **options)
+        return type(made)(*(each.T for each in made)) if isinstance(made, tuple) else made.T
+
+    return work
+
+
 def is_scalar(value):
     return isinstance(value, numbers.Number) or (type(value).__module__ == "numpy" and getattr(value, "shape", 0) == ())
 
