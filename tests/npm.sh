@@ -43,6 +43,22 @@ tests_of() { # tests_of FILE: some tests ran, and all of them went well
 plain=$PWD/$B/plain/depthprec
 shown() { (readme=$PWD && cd "$site" && node shown.mjs "$readme/README.md" "$readme/src/npm/README.md"); }
 
+# As a bundler that splits nothing makes it: as large as the page says, to a tenth, and it runs; without the command, too.
+bundled() {
+    for size in core:162 whole:935; do
+        from=depthprec
+        [ "${size%:*}" = whole ] || from=depthprec/core
+        echo "import { Camera } from \"$from\"; console.log(new Camera({ format: \"d16\" }).encode(Infinity));" >"$site/${size%:*}.mjs"
+        (cd "$site" && esbuild --bundle --minify --format=esm --platform=node --log-level=error --outfile="bundle.${size%:*}.mjs" "${size%:*}.mjs" &&
+            mkdir -p apart && cp "bundle.${size%:*}.mjs" apart && [ "$(node "apart/bundle.${size%:*}.mjs")" = 65535 ]) || return
+        grep -q "${size#*:} kB" src/npm/README.md || return
+        wc -c <"$site/bundle.${size%:*}.mjs" | awk -v said="${size#*:}" '{ print $1, said; exit !($1 / 1000 / said > 0.9 && $1 / 1000 / said < 1.1) }' || return
+    done
+}
+required() { # by CommonJS, as the page says of node
+    (cd "$site" && [ "$(node -e 'console.log(require("depthprec").version, new (require("depthprec/core").Camera)({ format: "d16" }).codeMax)')" = "$("$DEPTHPREC" --version | sed -n '1s/.* //p') 65535" ])
+}
+
 # ---- The same bits through each door -----------------------------------------------------------------------------
 
 walk() {
@@ -160,6 +176,16 @@ check "the library's module imports nothing" imports_nothing
 check "tests of npm/: numbers" tests_of numbers.mjs
 check "tests of npm/: program" tests_of program.mjs
 check "its page and README.md show what it prints" shown
+if command -v esbuild >/dev/null 2>&1; then
+    check "bundled, alone and with the command" bundled
+else
+    skip "bundled, alone and with the command" "there is no esbuild"
+fi
+if node -e 'const [a, b] = process.versions.node.split(".").map(Number); process.exit(a > 22 || (a === 22 && b >= 12) || (a === 20 && b >= 19) ? 0 : 1)'; then
+    check "required by CommonJS" required
+else
+    skip "required by CommonJS" "node is older than the page asks for"
+fi
 check "$count set-ups of seed $seed: the same bits as the library" walk
 if command -v python3 >/dev/null 2>&1; then
     check "the same bits by Python" walk_python

@@ -109,6 +109,7 @@ function elements(values, what) {
     if (typeof values === "number") return undefined;
     const kind = kindOf(values);
     if (kind in REALS || INTEGERS.has(kind)) return values;
+    if (kind === "Float16Array") return Float32Array.from(values);
     if (!Array.isArray(values)) throw new TypeError(`${what} must be a number or an array of numbers, got ${values === null ? "null" : kind ?? typeof values}`);
     return Float64Array.from(values, (x) => real(x, "an element"));
 }
@@ -204,7 +205,7 @@ export class Camera {
 
     static fromMatrix(matrix, options) {
         const { mapping, layout, ...more } = only(options, MATRIX_KEYS, "options of fromMatrix");
-        if (Array.isArray(matrix?.elements)) matrix = matrix.elements; // three.js
+        if (Array.isArray(matrix?.elements) || ArrayBuffer.isView(matrix?.elements)) matrix = matrix.elements; // three.js
         const flat = Array.isArray(matrix) && matrix.every((row) => Array.isArray(row) || ArrayBuffer.isView(row)) ? matrix.map((row) => Array.from(row)).flat() : matrix;
         const given = elements(flat, "a matrix");
         if (given?.length !== 16) throw new DepthprecError(`a matrix must have 16 numbers, got ${given === undefined ? 1 : given.length}`);
@@ -263,7 +264,7 @@ export class Camera {
         const { bounds = false, window = false, out } = only(options, ["bounds", "window", "out"]);
         const given = elements(values, "codes or window depths");
         if (given === undefined) return this.#decoded(values, bounds, window);
-        const floating = window || (kindOf(values) in REALS);
+        const floating = window || (kindOf(given) in REALS && !Array.isArray(values));
         const from = floating ? reals(given) : codes(given, this.#narrow);
         if (bounds && out !== undefined && Object.values(out).length !== 3) throw new DepthprecError("out must have z, lo and hi with bounds");
         const outs = bounds ? ["z", "lo", "hi"].map((name) => out?.[name]) : [out];

@@ -7,6 +7,7 @@
 export type Reals = Float32Array | Float64Array;
 export type Integers = Uint8Array | Uint8ClampedArray | Int8Array | Uint16Array | Int16Array | Uint32Array | Int32Array;
 export type Codes = Uint16Array | Uint32Array;
+/** Float16Array, where there is one, is taken, too, as Float32Array. */
 export type Numbers = Reals | Integers | readonly number[];
 
 export class DepthprecError extends Error {
@@ -110,7 +111,7 @@ export class Camera implements Readonly<Required<Omit<CameraOptions, "viewport" 
      * leave them between nearLeast and nearMost, farLeast and farMost. Throws where it is no projection, where its planes differ from pixel to pixel, and where more
      * than one convention fits, naming what each would be.
      */
-    static fromMatrix(matrix: Numbers | readonly Numbers[] | { readonly elements: readonly number[] }, options?: Omit<CameraOptions, "near" | "far" | "ortho"> & { layout?: "rows" | "columns" }): Camera;
+    static fromMatrix(matrix: Numbers | readonly Numbers[] | { readonly elements: ArrayLike<number> }, options?: Omit<CameraOptions, "near" | "far" | "ortho"> & { layout?: "rows" | "columns" }): Camera;
 
     /** This camera but for what is named: a camera does not change. */
     replace(changes: CameraOptions): Camera;

@@ -113,6 +113,7 @@ test("cameras of matrices", () => {
             assert.deepEqual([c.mapping, c.format, c.ortho], [mapping, "unorm24", false]);
         }
     assert.deepEqual({ ...Camera.fromMatrix({ elements: turned(all[2][1]) }) }, { ...Camera.fromMatrix(turned(all[2][1])) }); // as three.js has it
+    assert.deepEqual({ ...Camera.fromMatrix({ elements: Float32Array.from(turned(all[2][1])) }) }, { ...Camera.fromMatrix(Float32Array.from(turned(all[2][1]))) });
     assert.equal(Camera.fromMatrix(turned(all[2][1])).mapping, "reversed"); // which alone says all of itself
     assert.equal(Camera.fromMatrix(matrix(-1, -1), { mapping: "d3d" }).far, Infinity);
     const flat = Camera.fromMatrix(matrix(-1 / 3, -1 / 3, [0, 0, 0, 1]), { mapping: "d3d" });
@@ -160,6 +161,10 @@ test("arrays: of any type, of any length, each element as by itself", () => {
     const decoded = c.decode(windows), same = c.decode(codes);
     assert.deepEqual(decoded, same);
     assert.equal(c.separation(new Float32Array([1, 2])).constructor, Float32Array);
+    const Half = globalThis.Float16Array ?? class extends Float32Array { get [Symbol.toStringTag]() { return "Float16Array"; } };
+    assert.deepEqual(c.encode(Half.from([1, 2.5])), c.encode(Float32Array.of(1, 2.5))); // numbers that both hold
+    assert.deepEqual(c.decode(Half.from([0.5, 0.75])), c.decode(Float32Array.of(0.5, 0.75)));
+    assert.equal(c.separation(Half.from([1])).constructor, Float32Array);
     assert.deepEqual(c.encode([1, 2, 3]), c.encode(new Int8Array([1, 2, 3])));
     assert.deepEqual(c.decode([0, 100]), c.decode(new Uint8Array([0, 100])));
     assert.deepEqual([...c.decode([2 ** 32 - 1])], [c.decode(c.codeMax)]);
