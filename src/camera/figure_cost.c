@@ -51,6 +51,8 @@ static void name_series(const cost *c, chart_series *s) {
              !buffer    ? c->available
              : c->early ? "early z"
                         : "no early z");
+    if (buffer)
+        append(s->name, sizeof s->name, ": shades %.2g of %d", ceil(10 * c->shaded) / 10, COST_SURFACES);
     s->style = (chart_style){!buffer ? 2 : c->early ? 0 : 1, 0, !buffer ? 2 : c->bytes < 4 ? 1 : 0, false};
 }
 
@@ -136,5 +138,6 @@ const char *cost_build(const figure_request *request, chart *out) {
            isnan(request->at) ? ", at depth " : "", isnan(request->at) ? depth : "",
            late ? ". No early z: the fragment shader writes depth" : "",
            isinf(all[request->count - 1].separation) ? ". Without a mark: nothing is certain" : "");
+    append(out->subtitle, sizeof out->subtitle, ". Shades: of %d surfaces at a pixel, in random order", COST_SURFACES);
     return NULL;
 }

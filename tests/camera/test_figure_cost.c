@@ -20,6 +20,23 @@ static const struct {
                 {"gl-reversed", true, true, true}, {"linear", false, false, false}, {"log", false, false, false}};
 enum { FORMATS = sizeof formats / sizeof formats[0], MAPPINGS = sizeof mappings / sizeof mappings[0] };
 
+/* Of four surfaces in each of their 24 orders, those that are nearer than all before them; as it is shown, upwards. */
+static double shaded_early(void) {
+    int runs = 0, orders = 0;
+    for (int code = 0; code < 256; code++) {
+        const int at[] = {code & 3, code >> 2 & 3, code >> 4 & 3, code >> 6};
+        if ((1 << at[0] | 1 << at[1] | 1 << at[2] | 1 << at[3]) != 15)
+            continue;
+        orders++;
+        for (int k = 0, nearest = 4; k < 4; k++)
+            if (at[k] < nearest) {
+                nearest = at[k];
+                runs++;
+            }
+    }
+    return ceil(10.0 * runs / orders) / 10;
+}
+
 /* The point of a set-up, and the series that it is in. */
 static const json_t *point_of(const json_t *root, const char *label, const char **series_name) {
     const json_t *series, *point;
@@ -52,6 +69,9 @@ static void check(const char *options, double at, dp_spec spec, bool infinite) {
                      !formats[f].buffer  ? "colour targets only"
                      : mappings[m].early ? "early z"
                                          : "no early z");
+            if (formats[f].buffer)
+                snprintf(want + strlen(want), sizeof want - strlen(want), ": shades %g of 4",
+                         mappings[m].early ? shaded_early() : 4.0);
             assert_string_equal(series, want);
             assert_int_equal(dp_format_parse(formats[f].format, format), 1);
             spec.format = format[0];

@@ -261,6 +261,49 @@ TEST(ours_on_a_device) {
     json_decref(root);
 }
 
+/* Of codes: the worst steps that the device's methods are off by are those of binary32 here, rounded once and again. */
+TEST(codes_on_a_device) {
+    static const struct {
+        const char *format;
+        double most;
+    } formats[] = {{"unorm16", 65535}, {"unorm24", 16777215}};
+    static float d[INPUTS];
+    dp_setup setup;
+    need_device(true);
+    for (size_t k = 0; k < 2; k++) {
+        json_t *root = json_printed(0, "plot pareto encode -F %s --json --device 0", formats[k].format);
+        const json_t *series, *point;
+        size_t s, i, found = 0, spreads = 0;
+        double rint_off = 0, floor_off = 0;
+        assert_int_equal(method_setup(&encode_family, 1 + k, 0.1, 1000, false, &setup), DP_OK);
+        method_windows(&setup, &(method_inputs){.count = INPUTS, .d = d});
+        for (i = 0; i < INPUTS; i++) {
+            const float product = d[i] * (float)formats[k].most;
+            const double exact = (double)d[i] * formats[k].most, up = floor((double)(product + 0.5F));
+            rint_off = fmax(rint_off, fabs(exact - nearbyint((double)product)));
+            floor_off = up > formats[k].most ? (double)INFINITY : fmax(floor_off, fabs(exact - up));
+        }
+        assert_non_null(strstr(text_at(root, "subtitle"), "; in software"));
+        json_array_foreach(node_at(root, "panels[0].series"), s, series)
+            json_array_foreach(json_object_get(series, "points"), i, point) {
+            const char *label = json_string_value(json_object_get(point, "label"));
+            const double want = label == NULL ? (double)NAN : strcmp(label, "rint") == 0 ? rint_off : floor_off;
+            spreads += strcmp(text_at(series, "name"), "spread of the times") == 0;
+            if (label == NULL || (strcmp(label, "rint") != 0 && strcmp(label, "floor") != 0))
+                continue;
+            found++;
+            assert_true(number_at(point, "time") > 0);
+            if (isfinite(want))
+                assert_true(same(number_at(point, "error"), want));
+        }
+        assert_true(found == 2 && spreads > 1);
+        json_decref(root);
+    }
+    json_t *root = json_printed(0, "methods encode -F unorm24 --device 0");
+    assert_true(number_at(row_of(root, "rint"), "device_ns") > 0 && number_at(row_of(root, "rint"), "ns") > 0);
+    json_decref(root);
+}
+
 TEST(test_shown) {
     need_device(false);
     json_t *root = json_printed(0, "methods linearize --mine %s:stored --define n=near --define f=far", file());
@@ -281,7 +324,11 @@ TEST(test_refused) {
     check_says(2, "--mine: needs FAMILY", "methods --mine %s:book", path);
     check_says(2, "--define: needs --mine", "methods linearize --define a=1");
     check_says(2, "--device: needs one family", "plot pareto all --csv --device 0");
-    check_says(2, "--device: is for the family linearize, got encode", "plot pareto encode --csv --device 0");
+    check_says(2, "--device: is for the families linearize and encode, whose methods GLSL has, got position",
+               "plot pareto position --csv --device 0");
+    check_says(2, "--device: is for unorm16 and unorm24 of the family encode",
+               "plot pareto encode -F fp16 --csv --device 0");
+    check_says(2, "--device: is for unorm16 and unorm24 of the family encode", "methods encode -F fp32 --device 0");
     check_says(2, "--device: needs --mine in the figure stability", "plot stability --csv --device 0");
     check_says(2, "--device: needs FAMILY", "methods --device 0");
     check_says(2, "--mine: does not apply to the figure error", "plot error --csv --mine %s:book", path);

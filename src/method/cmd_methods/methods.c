@@ -43,6 +43,14 @@ static bool wanted(const judge_request *o, const method_family_row *family, cons
     return formatted && mapped;
 }
 
+/* Whether a device has a method of a case: one of floating-point operations, from which code is printed. */
+static bool is_on_device(const judge_request *o, const method_family_row *family, size_t which) {
+    bool has = o->judge.device == NULL || family != &encode_family;
+    for (size_t i = 0; i < *family->method_count && !has; i++)
+        has = method_speaks(&family->methods[i], which) && family->methods[i].bound != NULL;
+    return has;
+}
+
 /* Why a camera is none of a family's; the option at fault. */
 static int refuse(const judge_request *o, dp_status wrong) {
     const bool ortho = wrong == DP_ERROR_ORTHO || wrong == DP_ERROR_ORTHO_NEAR || wrong == DP_ERROR_INFINITE;
@@ -69,18 +77,25 @@ static int check_ortho(const judge_request *o, const method_family_row *family) 
 int methods_resolve(const judge_request *o, const method_family_row *family, methods_asked *out) {
     if (o->judge.mine_count > 0 && family != &linearize_family)
         return option_error("mine", "is for the family linearize, got %s", family->name);
-    if (o->judge.device != NULL && family != &linearize_family)
-        return option_error("device", "is for the family linearize, got %s", family->name);
+    if (o->judge.device != NULL && family != &linearize_family && family != &encode_family)
+        return option_error("device", "is for the families linearize and encode, whose methods GLSL has, got %s",
+                            family->name);
     const int status = check_ortho(o, family);
     if (status != EXIT_FINE)
         return status;
     *out = (methods_asked){.family = family};
     char all[NAMES_SIZE] = "";
+    bool some = false;
     for (size_t i = family->case_count; i-- > 0;)
         if (wanted(o, family, &family->cases[i])) {
+            some = true;
+            if (!is_on_device(o, family, i))
+                continue;
             out->cases |= 1U << i;
             out->which = i;
         }
+    if (some && out->cases == 0)
+        return option_error("device", "is for unorm16 and unorm24 of the family encode: GLSL has no method of others");
     for (size_t i = 0; i < family->case_count; i++)
         append(all, sizeof all, "%s%s", i > 0 ? ", " : "", family->cases[i].name);
     if (out->cases == 0)

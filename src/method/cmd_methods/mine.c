@@ -33,13 +33,13 @@ static void expect(const method_row *row, const dp_setup *cameras, size_t count,
     dp_setup fresh[SEEN_MOST];
     size_t n = 0;
     for (size_t i = 0; i < count && f->seen_count + n < SEEN_MOST; i++)
-        if ((f->code.camera || inputs == linearize_family.inputs) && find(f, &cameras[i], inputs) == NULL)
+        if ((f->code.camera || inputs == f->of->family.inputs) && find(f, &cameras[i], inputs) == NULL)
             fresh[n++] = cameras[i];
     if (n == 0 || f->of->status != EXIT_FINE)
         return;
     float *in = malloc(n * inputs * sizeof *in), *values = malloc(n * inputs * sizeof *values);
     for (size_t i = 0; i < n && in != NULL; i++)
-        linearize_family.fill(&fresh[i], &(method_inputs){.count = inputs, .d = in + i * inputs});
+        f->of->family.fill(&fresh[i], &(method_inputs){.count = inputs, .d = in + i * inputs});
     f->of->status =
         in != NULL && values != NULL ? shader_values(&f->code, fresh, n, in, inputs, values) : usage_error("no memory");
     for (size_t i = 0; i < n; i++)
@@ -64,6 +64,17 @@ static void run(const method_call *c) {
     }
 }
 
+/* The code of each depth, which the device gave as a number; a number that is none is no code. */
+static void run_codes(const method_call *c) {
+    const mine_row *f = c->row->own;
+    expect(c->row, c->setup, 1, c->in->count);
+    const seen *s = find(f, c->setup, c->in->count);
+    for (size_t i = 0; i < c->in->count; i++) {
+        const double code = s != NULL && f->of->status == EXIT_FINE ? (double)s->values[i] : -1;
+        c->out->code[i] = code >= 0 && code <= (double)UINT32_MAX ? (uint32_t)code : UINT32_MAX;
+    }
+}
+
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
 /* The function's, or all that was typed where another has that name. In figures, which have no room for more, with what
@@ -80,7 +91,9 @@ static void name_it(mine *m, mine_row *f, method_row *row) {
 }
 
 static int open_ours(mine *m, const method_row *row, bool on_device) {
+    static const char number[] = "float code_number(float d) { return float(depth_code(d)); }\n";
     static output text; /* short: it never leaves its buffer */
+    const bool codes = row->family == METHOD_ENCODE;
     const code_language *glsl = code_language_get(0);
     mine_row *f = &m->more[m->count];
     const bool has = code_lacks(glsl, row, &m->setup) == NULL;
@@ -91,13 +104,15 @@ static int open_ours(mine *m, const method_row *row, bool on_device) {
     if (on_device) {
         method_row *here = &m->rows[m->count - 1];
         here->own = f;
-        here->run = run;
+        here->run = codes ? run_codes : run;
         here->known = code_bound(glsl, row, &m->setup);
     }
     text.used = 0;
     code_function(&text, glsl, row, &m->setup, false);
+    if (codes)
+        output_text(&text, number);
     text.buffer[text.used] = '\0';
-    return shader_write(m->o, &m->setup, text.buffer, "eye_depth", on_device, &f->code);
+    return shader_write(m->o, &m->setup, text.buffer, codes ? "code_number" : "eye_depth", on_device, &f->code);
 }
 
 static int open_mine(mine *m, const char *operand, size_t which) {
@@ -150,13 +165,15 @@ int mine_open(const judge_request *o, methods_asked *asked, bool on_device, mine
         return status;
     m->o = o;
     m->setup = asked->setup;
+    m->family = *asked->family;
+    const method_family_row *ours = asked->family;
     for (size_t i = 0; i <= BENCH_METHODS_MAX && status == EXIT_FINE; i++) {
         m->more[i].of = m;
         m->more[i].seen = calloc(SEEN_MOST, sizeof(seen));
         status = m->more[i].seen != NULL ? EXIT_FINE : usage_error("no memory");
     }
-    for (size_t i = 0; i < *linearize_family.method_count && status == EXIT_FINE; i++)
-        status = open_ours(m, &linearize_family.methods[i], on_device);
+    for (size_t i = 0; i < *ours->method_count && status == EXIT_FINE; i++)
+        status = open_ours(m, &ours->methods[i], on_device);
     for (size_t i = 0; i < o->judge.mine_count && status == EXIT_FINE; i++)
         status = open_mine(m, o->judge.mine[i], asked->which);
     if (status == EXIT_FINE)
@@ -164,7 +181,6 @@ int mine_open(const judge_request *o, methods_asked *asked, bool on_device, mine
             shader_write(o, &m->setup, "float loop(float d) { return d; }", "loop", false, &m->more[m->count].code);
     if (status == EXIT_FINE)
         status = time_all(m, on_device);
-    m->family = linearize_family;
     m->family.methods = m->rows;
     m->family.method_count = &m->count;
     asked->family = &m->family;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
  * @file mine.h  --mine: functions of somebody's in the chart. They are rows behind ours of linearize, whose values come
- * from the device at hand; how long they and ours take is measured there.
+ * from the device at hand; how long they and ours take is measured there. --device alone: ours, of encode, too, whose
+ * codes the device gives as numbers.
  */
 #ifndef METHOD_CMD_METHODS_MINE_H
 #define METHOD_CMD_METHODS_MINE_H
