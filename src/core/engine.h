@@ -79,6 +79,10 @@ void dp_pipeline_rounded(const dp_setup *setup, double *a, double *b);
  */
 int dp_separation_within(const dp_setup *outer, const dp_setup *inner, double lo, double hi, double limit);
 
+/* Whether dp_separation_over() with this limit has a bound within it, found sooner, as no worst depth is sought; 0
+ * where that takes as long. */
+int dp_separation_soon(const dp_setup *setup, double lo, double hi, double limit);
+
 /*
  * The same of the error of a stored depth, |stored - z|, however z is aligned to the codes: half a step of the format
  * behind it; truncated, a step before it, or behind it when reversed. Models exact and staged; of a logarithm that a

@@ -32,6 +32,7 @@ typedef struct search {
     dp_separation_worst *worst;
     double limit;
     int evaluations;
+    int only_whether; /* it is within the limit, and not how far */
     int count;
     part parts[PARTS_MAX]; /* a stack */
 } search;
@@ -105,6 +106,12 @@ static void raise_bound(dp_separation_worst *worst, double bound) {
 
 /* A part is of no interest when it cannot be worse than what is known; then its bound is the range's, too. */
 static void offer(search *s, double lo, double hi) {
+    if (s->only_whether && lo < hi) {
+        const double bound = bound_of(s, lo, hi);
+        s->evaluations++;
+        if (bound <= s->limit)
+            return;
+    }
     note_separation(s, lo);
     note_separation(s, hi);
     part p = {lo, hi, 0.0};
@@ -278,6 +285,18 @@ int dp_separation_within(const dp_setup *outer, const dp_setup *inner, double lo
         return 0;
     s.lattice = lattice_of(outer);
     return is_within(&s, limit);
+}
+
+/* What dp_separation_over() asks last, with the limit. */
+int dp_separation_soon(const dp_setup *setup, double lo, double hi, double limit) {
+    dp_separation_worst worst = {.lo = lo, .hi = hi, .z = hi};
+    search s = {.setup = setup,
+                .guarantee = dp_guarantee_make(setup),
+                .lattice = lattice_of(setup),
+                .worst = &worst,
+                .only_whether = 1};
+    const int inside = lo >= setup->spec.znear && lo <= hi && hi <= setup->spec.zfar && !isinf(hi);
+    return inside && limit > 0.0 && s.guarantee.computed && is_within(&s, limit);
 }
 
 int dp_error_within(const dp_setup *outer, const dp_setup *inner, double lo, double hi, double limit) {

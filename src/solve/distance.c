@@ -42,6 +42,10 @@ static void extend(ruler *r, double end) {
         e->fails = end;
         return;
     }
+    if (r->kind == QUANTITY_SEPARATION && begin < end && dp_separation_soon(r->setup, begin, end, r->limit)) {
+        e->holds = end;
+        return;
+    }
     const quantity_worst j = quantity_over(r->kind, r->setup, begin, end, r->limit);
     if (j.passed)
         e->holds = end;

@@ -2,6 +2,7 @@
 /* The largest separation over a range: never below that of any depth in it, and no more above than is promised. */
 #include "core/engine.h"
 #include "depthprec/depthprec.h"
+#include "setups.h"
 #include "support.h"
 #include "zfight/census.h"
 
@@ -383,4 +384,41 @@ TEST(what_the_lattice_is_not_above) {
     }
     tally_end(&above);
     tally_end(&near);
+}
+
+/* Whether a limit holds is found sooner than the worst depth, and is the same answer: what it promises holds at depths
+ * one by one. */
+TEST(soon_is_the_same) {
+    static const char *const formats[] = {"fp32", "unorm24", "unorm16"};
+    tally same = {.name = "soon: what the search for the worst says, where that is asked with the limit"};
+    tally holds = {.name = "soon: what is within holds at each depth tried"};
+    rng r = rng_make("separation soon");
+    int yes = 0, no = 0;
+    for (uint64_t i = 0; i < test_cases(100, 1500, 20000); i++) {
+        const double near = rng_log(&r, 0.01, 10), far = near * rng_log(&r, 2, 1e6);
+        const double lo = fmin(fmax(rng_log(&r, near, far), near), far);
+        const double hi = fmin(fmax(rng_log(&r, lo, far), lo), far);
+        dp_separation_worst worst;
+        dp_setup s = SETUP(formats[rng_below(&r, 3)], .znear = near, .zfar = far, .model = DP_MODEL_FLOAT,
+                           .mapping = (dp_mapping)rng_below(&r, 4));
+        if (rng_below(&r, 3) == 0) {
+            s.spec.triangles = dp_triangles_default();
+            dp_spec spec = s.spec;
+            assert_int_equal(dp_setup_init(&s, &spec), DP_OK);
+        }
+        const double limit = dp_separation(&s, hi) * rng_log(&r, 0.9, 1.5);
+        if (!isfinite(limit) || lo == hi || dp_separation_over(&s, lo, hi, limit, &worst) != DP_OK)
+            continue;
+        const bool within = dp_separation_soon(&s, lo, hi, limit);
+        TALLY(&same, within == (worst.bound <= limit), "%s: from %a to %a within %a", name_of(&s), lo, hi, limit);
+        for (int k = 0; k < 20 && within; k++) {
+            const double z = fmin(fmax(rng_log(&r, lo, hi), lo), hi);
+            TALLY(&holds, dp_separation(&s, z) <= limit, "%s: at %a within %a", name_of(&s), z, limit);
+        }
+        yes += within;
+        no += !within;
+    }
+    assert_true(yes > 10 && no > 10);
+    tally_end(&same);
+    tally_end(&holds);
 }
