@@ -361,6 +361,28 @@ per_vertex() {
 }
 check "W-buffer: depth by vertex is wrong between them" per_vertex
 
+# ---- Depths ----
+
+check "NDC z, window depth: one metre near and far" rows '
+    n = 0.3; f = 1000; least = 1e-7
+    want["depth"] = f / (f - n) * (1 - n / a["z"])
+    if (a["z"] == 3) bad += (a["depth"] - last - 0.05) ^ 2 > 1e-8
+    if (a["z"] == 201) bad += (a["depth"] - last - 7.465e-6) ^ 2 > 1e-14
+    last = a["depth"]' depthprec table -n .3 -f 1000 -m d3d -F fp32 --at 2,3,200,201
+check "orthographic depth is linear, and read so" rows '
+    want["depth"] = (a["z"] - 0.3) / 999.7; least = 1e-7' depthprec table -n .3 -f 1000 -m d3d -F fp32 --ortho --at 1,10,100,999
+check "a reversed depth of 0.0001 is 750, and not sky" rows '
+    want["z"] = 0.3 * 1000 / (0.3 + 0.0001 * 999.7)' depthprec table -n .3 -f 1000 -m reversed -F fp32 --depth 0.0001
+named() { # named NAME FORMULA ARGUMENT...: what judge calls the function of d whose values awk computes
+    name=$1 formula=$2
+    shift 2
+    awk "BEGIN { n = 0.3; f = 1000; OFMT = CONVFMT = \"%.9g\"
+        for (i = 0; i <= 20; i++) { d = i / 20; z = n * f / (f - d * (f - n)); print d \" \" $formula } }" >"$scratch/named"
+    says "called $name of Unity" depthprec judge --pairs "$scratch/named" -n .3 -f 1000 -m d3d "$@"
+}
+check "judge names LinearDepthToEyeDepth" named LinearDepthToEyeDepth 'n + d * (f - n)' --ortho
+check "judge names Linear01DepthFromNear" named Linear01DepthFromNear '(z - n) / (f - n)'
+
 # ---- Depth of DepthNormals beside depth buffers ----
 
 check "rg: its codes are those of EncodeFloatRG, depths those of DecodeFloatRG" rows '
@@ -389,5 +411,18 @@ as_packed() { # the bytes that texture packs are the codes that table prints
     [ "$(grep -c . "$scratch/codes")" -eq 16 ] && cmp "$scratch/packed" "$scratch/codes"
 }
 check "rg: its codes are the bytes that texture packs" as_packed
+
+# ---- All of them ----
+
+shown() { # each statement of the articles has its test: a word or a check of this file, or a test of a program
+    while IFS='|' read -r statement file name; do
+        case $file in
+        seeds.sh) grep -qxF -e "$name" tests/seeds.sh || grep -qF -e "check \"$name\"" tests/seeds.sh ;;
+        *) grep -q "^TEST($name)" "tests/$file" ;;
+        esac || { echo "$statement: no '$name' in tests/$file" && return 1; }
+    done <tests/seeds.txt
+}
+check "each statement has its test" shown
+check "99 statements, each once" [ "$(cut -d '|' -f 1 tests/seeds.txt | sort -u | wc -l)" -eq 99 ]
 
 finish
