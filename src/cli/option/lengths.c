@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Options that are lengths, and lists of them. */
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,6 +10,7 @@
 #include "cli/option/option.h"
 #include "core/append.h"
 #include "report/output.h"
+#include "system/input.h"
 
 number_text lengths_text(const lengths *l, double value, int digits) {
     for (size_t i = 0; i < l->typed_count; i++)
@@ -246,10 +248,88 @@ int parse_pixels(asked_line *line, const option_row *row, const char *value, voi
     return parse_list(line, row, value, group);
 }
 
+/* ---- Depths of a file ---------------------------------------------------------------------------------------------
+ */
+
+enum { WORD_MOST = 64, ROOM_FIRST = 1024 };
+
+/* Goes on to the next word. @return its length, 0 behind the last; of one that is too long, WORD_MOST */
+static size_t next_word(FILE *in, size_t *lines, char word[WORD_MOST]) {
+    size_t length = 0;
+    bool comment = false;
+    for (int c; (c = getc(in)) != EOF;) {
+        comment = (comment || c == '#') && c != '\n';
+        const bool between = comment || strchr(" ,;\t\r\n", c) != NULL;
+        if (!between && length < WORD_MOST)
+            word[length++] = (char)c;
+        if (between && length > 0) {
+            ungetc(c, in);
+            break;
+        }
+        *lines += c == '\n';
+    }
+    word[length < WORD_MOST ? length : WORD_MOST - 1] = '\0';
+    for (char *c = word; *c != '\0'; c++)
+        *c = (char)(*c > ' ' && *c < 0x7f ? *c : '?'); /* of a file that is no text */
+    return length;
+}
+
+static double *more_room(asked_line *line, const double *list, size_t count) {
+    double *more = asked_allocate(line, 2 * count * sizeof *more);
+    if (more != NULL)
+        memcpy(more, list, count * sizeof *more);
+    return more;
+}
+
+static int read_all(asked_line *line, length_reader *seen, const option_row *row, const char *path, FILE *in,
+                    depths *out) {
+    char word[WORD_MOST];
+    size_t room = ROOM_FIRST, lines = 1;
+    depths d = {.kind = DEPTHS_LIST, .lo = (double)INFINITY, .hi = -(double)INFINITY};
+    double *list = asked_allocate(line, room * sizeof *list);
+    for (size_t length; list != NULL && (length = next_word(in, &lines, word)) > 0;) {
+        double z;
+        if (length == WORD_MOST || !length_read(seen, word, length, NUMBER_FINITE, &z))
+            return option_refuse(row, "%s: line %zu: must be a depth, got '%.20s'%s", path, lines, word,
+                                 length_hint(word, strlen(word)));
+        if (d.count == DEPTHS_MAX)
+            return option_refuse(row, "%s: must hold at most %d depths", path, DEPTHS_MAX);
+        if (d.count == room) {
+            list = more_room(line, list, room);
+            room *= 2;
+        }
+        if (list != NULL)
+            list[d.count++] = z + 0.0; /* no -0 */
+        d.lo = fmin(d.lo, z);
+        d.hi = fmax(d.hi, z);
+    }
+    if (list == NULL)
+        return option_refuse(row, "no memory for the depths of %s", path);
+    if (ferror(in))
+        return option_refuse(row, "cannot read '%s': %s", path, strerror(errno));
+    if (d.count == 0)
+        return option_refuse(row, "%s: holds no depth", path);
+    d.list = list;
+    *out = d;
+    return EXIT_FINE;
+}
+
+/* Depths that a file holds, as others wrote them: by white space or commas, # begins a comment. */
+static int parse_file(asked_line *line, length_reader *seen, const option_row *row, const char *path, depths *out) {
+    errno = 0;
+    FILE *in = input_open(path);
+    if (in == NULL)
+        return option_refuse(row, "cannot read '%s': %s", path, strerror(errno));
+    const int status = read_all(line, seen, row, path, in, out);
+    input_close(in);
+    return status;
+}
+
 int parse_depths(asked_line *line, const option_row *row, const char *value, void *group) {
     length_reader seen = {.in = line->lengths};
     const int status =
-        strchr(value, ':') != NULL
+        *value == '@' ? parse_file(line, &seen, row, value + 1, option_field(row, group))
+        : strchr(value, ':') != NULL
             ? parse_spaced(&seen, row, value, option_field(row, group))
             : parse_listed(line, &seen, row, value, "Z[,Z...] or LO:HI:log|lin:COUNT", option_field(row, group));
     return status == EXIT_FINE ? length_check_mixed(&seen, row, value) : status;

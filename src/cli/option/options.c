@@ -156,6 +156,9 @@ static int unknown_option(const asked_line *line, const known *k, int refused, c
 
 static int wrong_command(const asked_line *line, const option_row *row) {
     char takers[OPTION_TEXT_SIZE];
+    const char *said = said_of(line->command->words, row->name);
+    if (said != NULL)
+        return option_refuse(row, "is not an option of %s: %s", line->command->name, said);
     return option_refuse(row, "is not an option of %s, but of %s%s", line->command->name,
                          option_takers(row->name, takers), row->instead != NULL ? row->instead : "");
 }

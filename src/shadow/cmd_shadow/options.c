@@ -277,10 +277,16 @@ static int complete(void *request) {
     return camera_complete(&o->camera, &(camera_use){.mapped = true});
 }
 
+static const command_word words[] = {
+    {"matrix",
+     "a light's orthographic one is --light-box WxHxD, 2/m00 by 2/m11 by far - near, one in perspective --spot DEG, "
+     "twice the arc tangent of 1/m00; of the view it is --near, --far and --fov"},
+    {NULL, NULL}};
+
 /* clang-format off */
 const command_row command_shadow = {
     .name = "shadow", .request = sizeof(shadow_request), .places = places, .uses = uses,
-    .complete = complete, .operand = "",
+    .complete = complete, .words = words, .operand = "",
     .summary = "shadow maps: the bias that prevents acne, and its gap",
     .example = "  depthprec shadow -n 0.1 -f 150 --size 2048 --unit m\n"
     "  depthprec shadow --light-box 40x40x200 -F d16 --kernel 5 --angle 70 --api gl\n"
