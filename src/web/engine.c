@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/cmd_help/describe.h"
 #include "cli/option/option.h"
 #include "report/output.h"
 #include "web/page.h"
@@ -82,10 +83,11 @@ PAGE_EXPORT("parse") int parse_words(int count) {
     return status;
 }
 
-/** The options of the command that is the first word: name and argument ("" of none) of each. @return exit status */
+/** The options of the command that is the first word: name, argument ("" of none) and help of each. @return exit status
+ */
 PAGE_EXPORT("takes") int taken_by_words(int count) {
     const option_row *all[OPTIONS_MAX + 1];
-    char argument[OPTION_TEXT_SIZE];
+    char argument[OPTION_TEXT_SIZE], help[DESCRIPTION_SIZE];
     const command_row *v = split_words(count) > 1 ? command_find(words[1]) : NULL;
     options_all(all);
     for (size_t i = 0; v != NULL && all[i] != NULL; i++) {
@@ -93,6 +95,7 @@ PAGE_EXPORT("takes") int taken_by_words(int count) {
         if (use.row != NULL) {
             say(use.row->name);
             say(option_use_argument(&use, argument));
+            say(option_describe(&use, help));
         }
     }
     fflush(NULL);

@@ -132,10 +132,10 @@ export async function load(from, host = () => ({})) {
             return { status, err, verb, operands, options };
         },
 
-        // The options that a command takes: a Map from long name to how its argument is written, "" of none.
+        // The options that a command takes: a Map from long name to { argument, help }: how its argument is written, "" of none.
         takes(verb) {
             const words = call("takes", [verb]).out.split("\0").slice(0, -1), taken = new Map();
-            for (let i = 0; i < words.length; i += 2) taken.set(words[i], words[i + 1]);
+            for (let i = 0; i < words.length; i += 3) taken.set(words[i], { argument: words[i + 1], help: words[i + 2] });
             return taken;
         },
 

@@ -7,7 +7,7 @@ import { $, errorOf, fields, make, mapOf, page, set, start, state, takes, VIEW, 
 // ---- Controls -----------------------------------------------------------------------------------------------------
 
 export const names = (what) => JSON.parse(page.engine.run(["list", what, "--json"]).out).items.map((item) => item.name);
-const choices = (option) => takes.table.get(option).split("|");
+const choices = (option) => takes.table.get(option).argument.split("|");
 
 // Sliders are logarithmic; the last step of far is infinity. A slider writes a plain number of three digits.
 const SLIDERS = { near: [-3, 2], far: [0, 7] }, STEPS = 500;
@@ -80,17 +80,16 @@ export function buildSetup(index) {
     };
     // A camera of an engine fills the fields with what the program says that it is.
     // Those that compute their planes ask for more than a name: they are typed as a further option.
-    const engines = JSON.parse(page.engine.run(["list", "presets", "--json"]).out).items.filter(({ camera }) => /^near [^ ]+, far/.test(camera));
+    const engines = JSON.parse(page.engine.run(["list", "presets", "--json"]).out).items.filter(({ camera }) => !camera.startsWith("near and far computed"));
     const preset = select("preset", "Engine", ["", ...engines.map(({ name }) => name)], "any");
     own.preset.addEventListener("change", () => {
         if (index === 0) $("#engine").value = own.preset.value;
-        const chosen = engines.find(({ name }) => name === own.preset.value);
-        const said = /near ([^,]+), far ([^,]+), ([^,]+), ([^,]+),.* scene in (\w+)/.exec(chosen?.camera ?? "");
-        if (said === null) return;
-        const [, near, far, mapping, format, scene] = said, setup = state.setups[index];
-        for (const [option, value] of Object.entries({ near, far, mapping, format })) setup.set(option, value);
-        if (choices("unit").includes(scene)) setup.set("unit", scene);
-        else setup.delete("unit");
+        if (own.preset.value === "") return;
+        const [{ near, far, mapping, format, unit }] = JSON.parse(page.engine.run(["table", "--preset", own.preset.value, "--json"]).out).setups;
+        const setup = state.setups[index];
+        for (const [option, value] of Object.entries({ near, far: far ?? "inf", mapping, format })) setup.set(option, String(value));
+        if (unit === null) setup.delete("unit");
+        else setup.set("unit", unit);
         fill();
     });
     // The usual ones by their plain names, beside the lists of all.
@@ -146,12 +145,9 @@ export function buildSetup(index) {
 
 // The help of an option, as the commands have it, stands beside its control.
 export function explain() {
-    const texts = {};
     for (const input of document.querySelectorAll("[data-option], [data-slider]")) {
         const verb = input.closest("[data-asks]")?.dataset.asks ?? "table", { option = input.dataset.slider } = input.dataset;
-        texts[verb] ??= page.engine.run([verb, "--help"]).out;
-        const said = new RegExp(`^ {2,6}(?:-., )?--${option}\\b[^\n]*\n(?: {20,}[^\n]*\n)*`, "m").exec(texts[verb])?.[0].split("\n");
-        input.title = said?.map((line) => (line[29] === " " ? line.slice(30) : "")).join(" ").trim() ?? "";
+        input.title = takes[verb].get(option).help;
     }
 }
 

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/cmd_help/describe.h"
 #include "cli/cmd_help/request.h"
 #include "cli/cmd_list/request.h"
 #include "cli/list.h"
@@ -57,10 +58,7 @@ static void list_commands(output *out) {
     page_text(&p, "Exit: 0 success, 1 a check failed, 2 bad usage or input, 3 cannot read or write.");
 }
 
-enum { DESCRIPTION_SIZE = 1024 };
-
-/* "what it does (LEAST to MOST UNIT; default D: what that means)". */
-static const char *describe(const option_taken *use, char out[DESCRIPTION_SIZE]) {
+const char *option_describe(const option_taken *use, char out[DESCRIPTION_SIZE]) {
     const option_row *row = use->row;
     const char *help = use->own.help != NULL ? use->own.help : row->help, *standard, *without;
     char text[OPTION_TEXT_SIZE];
@@ -115,7 +113,7 @@ static void list_options(page *p, const command_row *v) {
             output_format(p->out, "\n%s\n", group);
         shown = group;
         label_of(&use, label);
-        page_wrapped(p, label, describe(&use, text));
+        page_wrapped(p, label, option_describe(&use, text));
         snprintf(text, sizeof text, "Taken by %s.", option_takers(last, takers));
         if (v == NULL && all[i]->parse != NULL)
             page_wrapped(p, "", text);
