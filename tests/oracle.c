@@ -140,6 +140,31 @@ static void argument(oracle *o) {
     mpfr_add_ui(o->x, o->x, 1, MPFR_RNDN);
 }
 
+static int is_moved(const dp_spec *spec) {
+    const double *range = spec->depth_range;
+    return (range[0] != 0 || range[1] != 0) && (range[0] != 0 || range[1] != 1);
+}
+
+/* lo + (hi - lo) d, ends that are binary32 numbers: multiples of 2^-149. */
+static void move_window(oracle *o) {
+    const float *end = (const float[]){(float)o->spec.depth_range[0], (float)o->spec.depth_range[1]};
+    if (!is_moved(&o->spec))
+        return;
+    mpz_t lo, width;
+    mpz_inits(lo, width, NULL);
+    mpz_set_d(lo, ldexp((double)end[0], 149));
+    mpz_set_d(width, ldexp((double)end[1], 149));
+    mpz_sub(width, width, lo);
+    mpz_mul(o->a, o->a, width);
+    mpz_addmul(o->a, o->g, lo);
+    mpz_mul(o->b, o->b, width);
+    mpz_addmul(o->b, o->h, lo);
+    mpz_mul_2exp(o->g, o->g, 149);
+    mpz_mul_2exp(o->h, o->h, 149);
+    o->reversed = o->reversed != (end[1] < end[0]);
+    mpz_clears(lo, width, NULL);
+}
+
 void oracle_init(oracle *o, const dp_spec *spec) {
     memset(o, 0, sizeof *o);
     o->spec = *spec;
@@ -154,8 +179,7 @@ void oracle_init(oracle *o, const dp_spec *spec) {
     mpq_inits(o->znear, o->zfar, NULL);
     mpfr_inits2(ORACLE_BITS, o->log_c, o->log_far, o->x, o->y, NULL);
     mpq_set_d(o->znear, spec->znear);
-    if (!o->infinite)
-        mpq_set_d(o->zfar, spec->zfar);
+    mpq_set_d(o->zfar, o->infinite ? 0 : spec->zfar);
     int exponent;
     frexp(spec->znear, &exponent);
     /* Every double from near on is a multiple of 2^-shift; about 0 that is 2^-1074, and room for its 53 bits. */
@@ -199,6 +223,7 @@ void oracle_init(oracle *o, const dp_spec *spec) {
             mpz_neg(o->b, o->b);
         }
     }
+    move_window(o);
     mpz_clears(n, f, NULL);
     mpq_clear(t);
 }
@@ -232,8 +257,8 @@ static void window_log(oracle *o) {
 
 static void window_d(oracle *o, double z) {
     if (isinf(z)) {
-        mpz_set_ui(o->num, o->reversed ? 0 : 1);
-        mpz_set_ui(o->den, 1);
+        mpz_set(o->num, o->a);
+        mpz_set(o->den, o->g);
     } else if (o->log) {
         mpfr_set_d(o->x, z, MPFR_RNDN);
         window_log(o);
@@ -349,6 +374,20 @@ static void clip(const oracle *o, mpq_t z) {
         mpq_set(z, o->zfar);
 }
 
+/* What lies beyond the ends of a depth range counts as the end. */
+static void hold(const oracle *o, mpq_t d) {
+    mpq_t end;
+    mpq_init(end);
+    const int falls = o->spec.depth_range[1] < o->spec.depth_range[0];
+    mpq_set_d(end, (double)(float)o->spec.depth_range[falls]);
+    if (is_moved(&o->spec) && mpq_cmp(d, end) < 0)
+        mpq_set(d, end);
+    mpq_set_d(end, (double)(float)o->spec.depth_range[!falls]);
+    if (is_moved(&o->spec) && mpq_cmp(d, end) > 0)
+        mpq_set(d, end);
+    mpq_clear(end);
+}
+
 void oracle_cell_of(oracle *o, oracle_cell *cell, uint32_t code) {
     const dp_format *format = &o->spec.format;
     mpq_t below, above;
@@ -359,9 +398,12 @@ void oracle_cell_of(oracle *o, oracle_cell *cell, uint32_t code) {
         oracle_boundary(above, format, o->spec.rounding, code + 1);
     else
         mpq_set_ui(above, 1, 1);
+    hold(o, below);
+    hold(o, above);
     cell->lo_infinite = !oracle_eye(o, cell->lo, o->reversed ? above : below);
     cell->hi_infinite = !oracle_eye(o, cell->hi, o->reversed ? below : above);
     oracle_value(below, format, code);
+    hold(o, below);
     cell->stored_infinite = !oracle_eye(o, cell->stored, below);
     if (!cell->lo_infinite && !cell->hi_infinite)
         mpq_sub(cell->whole, cell->hi, cell->lo);
@@ -485,7 +527,8 @@ const char *oracle_describe(const dp_spec *spec, char *text, size_t size) {
     static const char *const mapping[] = {"d3d", "gl",          "reversed",     "gl-reversed", "linear",
                                           "log", "three-webgl", "three-webgpu", "cesium",      "osgearth"};
     static const char *const rounding[] = {"nearest", "even", "zero"};
-    snprintf(text, size, "%s %s%s %s near=%a far=%a C=%a", spec->format.name, spec->ortho ? "ortho " : "",
-             mapping[spec->mapping], rounding[spec->rounding], spec->znear, spec->zfar, spec->log_c);
+    snprintf(text, size, "%s %s%s %s near=%a far=%a C=%a range=%a:%a", spec->format.name, spec->ortho ? "ortho " : "",
+             mapping[spec->mapping], rounding[spec->rounding], spec->znear, spec->zfar, spec->log_c,
+             spec->depth_range[0], spec->depth_range[1]);
     return text;
 }

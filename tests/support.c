@@ -85,6 +85,27 @@ static double sign_of(rng *r) {
     return rng_below(r, 2) ? 1.0 : -1.0;
 }
 
+static double rng_end(rng *r) {
+    switch (rng_below(r, 4)) {
+    case 0:
+        return (double)(rng_below(r, 101)) / 100;
+    case 1:
+        return rng_below(r, 2) ? 1 - rng_log(r, 1e-6, 1) : rng_log(r, 1e-6, 1);
+    case 2:
+        return ldexp(1, -(int)rng_below(r, 19));
+    default:
+        return (double)rng_below(r, 2);
+    }
+}
+
+void rng_range(rng *r, double range[2]) {
+    do {
+        range[0] = rng_end(r);
+        range[1] = rng_below(r, 3) ? rng_end(r) : range[0] + (rng_below(r, 2) ? 1 : -1) * rng_log(r, 1e-6, 1e-2);
+    } while (!(fabs(range[0] - range[1]) >= 1e-6) || (range[0] != 0 && !(range[0] >= 1e-6 && range[0] <= 1)) ||
+             (range[1] != 0 && !(range[1] >= 1e-6 && range[1] <= 1)));
+}
+
 double most_far(const dp_spec *spec) {
     const char *name = dp_mapping_get(spec->mapping)->name;
     const double own = strcmp(name, "three-webgpu") == 0 ? 1 / spec->znear : spec->log_c;

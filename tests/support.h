@@ -45,6 +45,9 @@ double rng_unit(rng *r);                    /**< [0, 1) */
 double rng_uniform(rng *r, double lo, double hi);
 double rng_log(rng *r, double lo, double hi); /**< log-uniform in [lo, hi], both positive */
 
+/** A depth range of a viewport: round numbers, slices next to 0, 1 or powers of two, of either order. */
+void rng_range(rng *r, double range[2]);
+
 /** The largest far plane of such a near plane, mapping and constant. */
 double most_far(const dp_spec *spec);
 

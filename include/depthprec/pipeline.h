@@ -10,10 +10,13 @@
  *     ndc    = fl(z_clip / w)                  reciprocal: fl(z_clip fl(1/w))
  *     window = ndc                             NDC in [0, 1]
  *            = fl(fl(0.5 ndc) + 0.5)           NDC in [-1, 1]
+ *            = fl(fl(S ndc) + O)               a depth range; fused: fl(S ndc + O)
  *     code   = the format's conversion of window
  *
- * A and B are the projection's two entries, formed in double and rounded once. The result is not monotone in z: two
- * depths may tie or swap. Models: perspective and orthographic mappings; linear and log have no such pipeline.
+ * A and B are the projection's two entries, formed in double and rounded once; so are S and O: from the ends LO and HI
+ * of the range, S is HI - LO and O LO, or S (HI - LO)/2 and O (LO + HI)/2 where NDC runs over [-1, 1]. The result is
+ * not monotone in z: two depths may tie or swap. Models: perspective and orthographic mappings; linear and log have no
+ * such pipeline.
  */
 #ifndef DEPTHPREC_PIPELINE_H
 #define DEPTHPREC_PIPELINE_H
@@ -31,11 +34,14 @@ typedef struct dp_pipeline {
     dp_format format;
     dp_rounding rounding;
     const dp_arith_row *arith;
-    float a, b;        /**< z_clip = A z + B */
-    int reversed;      /**< near is stored as 1 */
-    int ndc_signed;    /**< NDC runs over [-1, 1] */
-    int ortho;         /**< clip w is 1 */
-    float znear, zfar; /**< the binary32 depths nearest to the planes from inside; zfar may be INFINITY */
+    float a, b;          /**< z_clip = A z + B */
+    float scale, offset; /**< of the viewport: S and O */
+    int reversed;        /**< window depth falls from near to far */
+    int clip_reversed;   /**< NDC depth does */
+    int moved;           /**< the viewport is more than the identity */
+    int ndc_signed;      /**< NDC runs over [-1, 1] */
+    int ortho;           /**< clip w is 1 */
+    float znear, zfar;   /**< the binary32 depths nearest to the planes from inside; zfar may be INFINITY */
 } dp_pipeline;
 
 /**

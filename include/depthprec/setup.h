@@ -18,7 +18,8 @@ DP_BEGIN
 /** The roundings between the eye depth and the buffer that are modelled. */
 typedef enum dp_model {
     DP_MODEL_EXACT = 0, /**< real arithmetic and one rounding into the format: the lattice of codes */
-    DP_MODEL_STAGED,    /**< NDC depth, then window depth, each rounded once to binary32, then the format */
+    DP_MODEL_STAGED,    /**< NDC depth, then window depth, each rounded once to binary32, then the format; of the depth
+                             range 0 to 1 */
     DP_MODEL_FLOAT,     /**< every operation in binary32: see pipeline.h; perspective and orthographic mappings only */
     DP_MODEL_COUNT
 } dp_model;
@@ -37,6 +38,12 @@ typedef struct dp_spec {
     dp_model model;
     dp_arith arith;         /**< the arithmetic of DP_MODEL_FLOAT and of dp_pipeline_init() */
     double log_c;           /**< constant C of the logarithmic mappings, in [1e-12, 1e12]; not read for three-webgpu */
+    double depth_range[2];  /**< the viewport's minimum and maximum, the window depths where NDC depth begins and ends:
+                               glDepthRange(), minDepth and maxDepth (OpenGL 4.6, 13.8.1; Vulkan 1.3, Controlling the
+                               Viewport). Of either order, in [0, 1], at least 1e-6 apart, each 0 or at least 1e-6;
+                               rounded to binary32, as viewports have them. Both 0: 0 and 1, as from
+                               dp_spec_default(). Else DP_ERROR_WINDOW, as under linear and logarithmic mappings,
+                               whose shaders write depth; DP_MODEL_STAGED has 0 and 1 alone */
     dp_triangles triangles; /**< surfaces slant as this says, under a perspective: what the float model guarantees is
                                in triangles.h, and z is the depth of the farther one. Width 0: they face the camera */
 } dp_spec;
@@ -50,9 +57,10 @@ typedef struct dp_setup {
     dp_spec spec;
     /* private to the library: */
     dp_curve curve;
-    int reversed, shader;
+    int reversed, shader, ranged;
     double anchor, log_c, log_by;
     int spans_zero;
+    double ends[2], low, span;
     double kappa, scale, den, log_hi, log_lo;
     uint32_t code_near, code_far;
     float matrix[2], inside[2];

@@ -43,6 +43,7 @@ typedef enum dp_status {
     DP_ERROR_TRIANGLES,  /**< triangles out of range, or under an orthographic projection */
     DP_ERROR_MATRIX,     /**< not a projection matrix, or not one of the mapping asked for */
     DP_ERROR_CONVENTION, /**< a matrix that more than one convention fits: the mapping or the layout has to be said */
+    DP_ERROR_WINDOW,     /**< a depth range that is none, or where a shader writes depth */
     DP_STATUS_COUNT
 } dp_status;
 

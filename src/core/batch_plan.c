@@ -303,6 +303,8 @@ static int general_kernel(const dp_batch *b) {
     const int ends = b->task == DP_TASK_LO || b->task == DP_TASK_HI;
     if (b->task > DP_TASK_HI || (!by_format && s->curve == DP_CURVE_LOG))
         return DP_KERNEL_NONE;
+    if (!by_format && s->ranged)
+        return DP_KERNEL_NONE;
     if ((b->task == DP_TASK_EYE || ends) && s->spans_zero)
         return DP_KERNEL_NONE;
     if ((b->task == DP_TASK_CODE || b->task == DP_TASK_WIDTH || ends) && s->spec.model != DP_MODEL_EXACT)

@@ -32,19 +32,20 @@ const char *dp_cause_name(dp_cause cause) {
 }
 
 /*
- * Reading back in binary32, as window depth: z = 1/(zb d + wb), or n + (f - n) d when orthographic. Each constant is
+ * Reading back in binary32, as window depth: z = 1/(zb d + wb), or n + (f - n) d when orthographic; a depth range is
+ * undone by the constants. Each constant is
  * rounded once, d is converted once, then product, sum and reciprocal; errors are relative to the terms of the sum.
  */
 static double linearization_error(const dp_setup *setup, const dp_chain *c, double z) {
     const double n = setup->spec.znear;
     const double f = setup->spec.zfar;
     if (c->pipeline.ortho) {
-        const double start = setup->reversed ? f : n;
+        const double start = setup->reversed ? f + setup->kappa * setup->low : n - setup->kappa * setup->low;
         const double scene = DP_UNIT * (3.0 * fabs(z - start) + fabs(start) + fabs(z));
-        return larger(scene, 0x1p-126) / (f - n) * DP_OUTWARD;
+        return larger(scene, 0x1p-126) / setup->kappa * DP_OUTWARD;
     }
-    const double start = setup->reversed ? 1.0 / f : 1.0 / n;
-    const double relative = DP_UNIT * ((3.0 * fabs(1.0 / z - start) + start) * z + 2.0) * DP_OUTWARD;
+    const double start = setup->reversed ? 1.0 / f - setup->kappa * setup->low : 1.0 / n + setup->kappa * setup->low;
+    const double relative = DP_UNIT * ((3.0 * fabs(1.0 / z - start) + fabs(start)) * z + 2.0) * DP_OUTWARD;
     return relative * c->half * fabs(c->b) / z;
 }
 

@@ -24,7 +24,10 @@ static double w_of(const dp_chain *c, double z) {
 
 double dp_chain_window(const dp_chain *c, double z) {
     const double ndc = clip_of(c, z) / w_of(c, z);
-    return c->pipeline.ndc_signed ? 0.5 * ndc + 0.5 : ndc;
+    const double d = c->pipeline.ndc_signed ? 0.5 * ndc + 0.5 : ndc;
+    return !c->ranged ? d
+           : c->remap ? (double)c->pipeline.scale * d + (double)c->pipeline.offset
+                      : (double)c->pipeline.scale * ndc + (double)c->pipeline.offset;
 }
 
 double dp_chain_window_more(const dp_chain *c, double z) {
@@ -64,24 +67,36 @@ static double resolved_up_to(double zfar) {
 static int has_few_steps(const dp_chain *c) {
     enum { FEW = 16 };
     const double steepest = fabs(c->a) + c->a_more - 1.0;
-    return !c->pipeline.ortho && (!c->pipeline.reversed || c->pipeline.ndc_signed) && steepest < FEW * 0x1p-23;
+    return !c->pipeline.ortho && (!c->pipeline.clip_reversed || c->pipeline.ndc_signed) && steepest < FEW * 0x1p-23;
+}
+
+/* Some viewports clamp to their range, others to [0, 1] alone; the sum of a product by 1 is exact in double. */
+static void set_ends(dp_chain *c, const dp_setup *setup) {
+    const double scale = (double)c->pipeline.scale, offset = (double)c->pipeline.offset;
+    const double lower = (c->two_stage && c->pipeline.ndc_signed && !c->remap ? -scale : 0.0) + offset;
+    const int reversed = c->pipeline.clip_reversed;
+    c->ends[0] = setup->ends[0];
+    c->ends[1] = setup->ends[1];
+    c->ends_off = larger(fabs(lower - c->ends[!reversed ? 0 : 1]), fabs(scale + offset - c->ends[!reversed ? 1 : 0]));
 }
 
 dp_chain dp_chain_make(const dp_setup *setup, const dp_pipeline *p) {
     dp_chain c = {.pipeline = *p, .a = (double)p->a, .b = (double)p->b};
     c.a_granule = dp_granule(p->a);
     c.b_granule = dp_granule(p->b);
-    c.half = p->ndc_signed ? 0.5 : 1.0;
     c.remap = p->ndc_signed && p->arith->remap;
-    c.two_stage = p->ndc_signed && !c.remap;
+    c.two_stage = p->moved;
+    c.ranged = setup->ranged;
     c.per_clip = c.remap ? 0.5 : 1.0;
-    c.per_ndc = c.two_stage ? 0.5 : 1.0;
+    c.per_ndc = fabs((double)p->scale);
+    c.half = c.per_ndc * c.per_clip;
+    set_ends(&c, setup);
     c.a_exact = c.a == 0.0 || c.a_granule == fabs(c.a);
     c.fused = p->arith->fused && !c.a_exact;
     c.reach.lo = (double)(float)setup->spec.znear;
     c.reach.hi = resolved_up_to(setup->spec.zfar);
-    c.below = larger(excess_below(&c, c.reach.lo), excess_below(&c, c.reach.hi));
-    c.above = larger(excess_above(&c, c.reach.lo), excess_above(&c, c.reach.hi));
+    c.below = larger(excess_below(&c, c.reach.lo), excess_below(&c, c.reach.hi)) + c.ends_off;
+    c.above = larger(excess_above(&c, c.reach.lo), excess_above(&c, c.reach.hi)) + c.ends_off;
     c.few_steps = has_few_steps(&c);
     return c;
 }
@@ -125,8 +140,8 @@ dp_chain dp_chain_between(const dp_setup *one, const dp_setup *other, const dp_p
     c.reach.hi = larger(c.reach.hi, hi);
     const double at_near = excess_at(&c, c.reach.lo);
     const double at_far = finite ? excess_at(&c, nearest_far) : 0x1p-51; /* no depth comes as far as infinity */
-    c.below = p->reversed ? at_far : at_near;
-    c.above = p->reversed ? at_near : at_far;
+    c.below = (p->clip_reversed ? at_far : at_near) + c.ends_off;
+    c.above = (p->clip_reversed ? at_near : at_far) + c.ends_off;
     c.few_steps = has_few_steps(&c);
     return c;
 }
@@ -208,8 +223,8 @@ static int keep(const dp_chain *c, double ulp, int even, double *lo, double *hi)
     const int one = nearest[0] == nearest[1] && fabs(kept[0]) != 0.5 * ulp && fabs(kept[1]) != 0.5 * ulp;
     const double least = one || !c->run ? smaller(kept[0], kept[1]) : -0.5 * ulp;
     const double most = one || !c->run ? larger(kept[0], kept[1]) : 0.5 * ulp;
-    *lo = smaller(*lo, c->pipeline.reversed ? least : -most);
-    *hi = larger(*hi, c->pipeline.reversed ? most : -least);
+    *lo = smaller(*lo, c->pipeline.clip_reversed ? least : -most);
+    *hi = larger(*hi, c->pipeline.clip_reversed ? most : -least);
     return one || even;
 }
 
@@ -283,6 +298,21 @@ static dp_step viewport_of(double ndc1, double ndc2, double error) {
     return step_of((magnitude){larger(top, 0.0), larger(bottom, 0.0)});
 }
 
+/* The viewport of a range: a product and a sum, which hardware may fuse; neither of values beyond the clamp at 1. */
+static dp_step ranged_viewport_of(const dp_chain *c, double ndc1, double ndc2, double error) {
+    const double scale = (double)c->pipeline.scale, offset = (double)c->pipeline.offset;
+    const magnitude ndc = magnitude_of(ndc1, ndc2, error);
+    const double least = c->per_ndc * ndc.least;
+    const int power = c->per_ndc == dp_power2(dp_exponent(c->per_ndc));
+    const double product = !power ? dp_result_error(least, c->per_ndc * ndc.most) : least < 0x1p-126 ? 0x1p-126 : 0.0;
+    if (offset == 0.0)
+        return (dp_step){product, 2.0 * dp_half_ulp(larger(least - product, 0.0))};
+    const magnitude sum = magnitude_of(scale * ndc1 + offset, scale * ndc2 + offset, c->per_ndc * error + product);
+    dp_step s = step_of((magnitude){smaller(sum.most, 1.0 - DP_UNIT_BELOW_ONE), sum.least});
+    s.error += product;
+    return s;
+}
+
 /* The divide, or the product with the reciprocal. `error` is that of the quotient's numerator over w. */
 static void divide(const dp_chain *c, dp_span r, double q1, double q2, double error, dp_steps *s) {
     const magnitude q = magnitude_of(q1, q2, error);
@@ -295,8 +325,10 @@ static void divide(const dp_chain *c, dp_span r, double q1, double q2, double er
         s->inverse.error = q.most * (normal ? smaller(r.hi * by, most.units * DP_UNIT) : r.hi * by);
         s->inverse_off = normal ? smaller(by, most.units * DP_UNIT / r.lo * raised) : by;
     }
-    /* Quotients above 1 are clamped, and demand.c counts that; the rest have the last place of 1 at most. */
-    const magnitude result = {smaller(q.most + s->inverse.error, 1.0 - DP_UNIT_BELOW_ONE),
+    /* Quotients above 1 are clamped, and demand.c counts that; the rest have the last place of 1 at most. Not so before
+     * a viewport that takes them into [0, 1]. */
+    const magnitude result = {c->ranged ? q.most + s->inverse.error
+                                        : smaller(q.most + s->inverse.error, 1.0 - DP_UNIT_BELOW_ONE),
                               larger(q.least - s->inverse.error, 0.0)};
     s->quotient = step_of(result);
     s->quotient.error = dp_result_error(result.least, result.most);
@@ -334,7 +366,8 @@ static dp_steps steps_of(const dp_chain *c, dp_span r, const clip_steps *clip) {
     if (!c->pipeline.ortho)
         divide(c, r, q1, q2, unknown, &s);
     if (c->two_stage)
-        s.viewport = viewport_of(q1, q2, unknown + s.inverse.error + s.quotient.error);
+        s.viewport = c->ranged ? ranged_viewport_of(c, q1, q2, unknown + s.inverse.error + s.quotient.error)
+                               : viewport_of(q1, q2, unknown + s.inverse.error + s.quotient.error);
     const double per = c->per_ndc * c->per_clip / w;
     s.product = scaled(s.product, per);
     s.sum = scaled(s.sum, per);
@@ -367,10 +400,12 @@ dp_steps dp_chain_steps_beyond(const dp_chain *c, double z) {
         const dp_reciprocal_error most = dp_reciprocal_error_of(c->pipeline.arith->reciprocal);
         const double subnormal = zfar > 0x1p126 ? (fabs(dividend(c, zfar)) + more * w2) * most.subnormal : 0.0;
         const double inverse = most.units * DP_UNIT * (q + clip) + subnormal;
-        ndc = inverse + dp_half_ulp(smaller(q + clip + inverse, 1.0 - DP_UNIT_BELOW_ONE));
+        ndc = inverse +
+              dp_half_ulp(c->ranged ? q + clip + inverse : smaller(q + clip + inverse, 1.0 - DP_UNIT_BELOW_ONE));
     }
+    const double product = c->ranged ? dp_half_ulp(c->per_ndc * (q + clip + ndc)) : 0.0;
     dp_steps s = {.product = {c->per_ndc * clip, 0.0},
-                  .quotient = {c->per_ndc * ndc + (c->two_stage ? DP_UNIT_BELOW_ONE : 0.0), 0.0}};
+                  .quotient = {c->per_ndc * ndc + product + (c->two_stage ? DP_UNIT_BELOW_ONE : 0.0), 0.0}};
     s.full = s.product.error + s.quotient.error;
     return s;
 }
@@ -409,13 +444,13 @@ static double on_lattice(double least, double granule) {
 
 /* Whether t is the clip depth itself, and A <= 0. */
 static int is_plain(const dp_chain *c) {
-    return c->pipeline.reversed && !c->pipeline.ndc_signed;
+    return c->pipeline.clip_reversed && !c->pipeline.ndc_signed;
 }
 
 /* The least t of a span, as computed: that of its farthest depth, less what it may have lost. */
 static double least_of(const dp_chain *c, dp_span r, const clip_steps *clip) {
     const double end = clip_of(c, r.hi);
-    const double t = is_plain(c) ? end : c->pipeline.reversed ? r.hi + end : r.hi - end;
+    const double t = is_plain(c) ? end : c->pipeline.clip_reversed ? r.hi + end : r.hi - end;
     const double fuzz = (fabs(end) + r.hi) * 0x1p-52 + clip_more_over(c, r);
     const double granule = clip_granule(c, r, clip->before);
     const double least = on_lattice(t + clip->kept_lo - clip->product.error - fuzz,
@@ -434,7 +469,7 @@ static double rise_of(const dp_chain *c, dp_span r, const clip_steps *clip) {
         product_lag(c, r.hi) + sum_lag(c, r, clip->before, clip->kept_one > 0.0 ? 0.0 : clip->kept_hi - clip->kept_lo);
     if (binades == 1)
         rise += product_lag(c, dp_power2(dp_exponent(r.hi)) * (1.0 - DP_UNIT));
-    if (!c->remap || (rise == 0.0 && c->pipeline.reversed)) /* t itself keeps falling */
+    if (!c->remap || (rise == 0.0 && c->pipeline.clip_reversed)) /* t itself keeps falling */
         return rise;
     return rise + 2.0 * add_w(c, r, clip->before, clip->product.error).error;
 }
@@ -448,8 +483,8 @@ dp_steps dp_chain_steps(const dp_chain *c, dp_span r) {
 
 /* B is raised by what adding it changes and by products that were rounded towards near. */
 static void falls(const dp_chain *c, dp_span r, const clip_steps *clip, dp_numerator *n) {
-    const double a = c->pipeline.reversed ? c->a : -c->a;
-    const double b = c->pipeline.reversed ? c->b : -c->b;
+    const double a = c->pipeline.clip_reversed ? c->a : -c->a;
+    const double b = c->pipeline.clip_reversed ? c->b : -c->b;
     n->fall = -1.0 - a;
     n->granule = smaller(clip_granule(c, r, clip->before), w_granule(c, r));
     n->most = b + clip->kept_hi + clip->product.error + clip_more_over(c, r) + (b + n->fall * r.hi) * 0x1p-50;

@@ -34,16 +34,20 @@ typedef struct dp_chain {
     int run;               /* of cameras: the bits of A and B are unknown */
     double a_granule;      /* A is a multiple of it, and B of its own; infinity where they are 0 */
     double b_granule;
-    double half;         /* window depth per NDC depth, 1/2 where NDC is signed */
+    double half;         /* window depth per depth over w: 1/2 where NDC is signed, times what a viewport leaves */
     double per_clip;     /* what the shader's remap leaves of the clip depth, 1/2 or 1 */
     double per_ndc;      /* what the viewport leaves of the NDC depth */
     int a_exact;         /* A z is exact: A is 0 or a power of two */
     int fused;           /* A z + B is rounded once, and A z is not exact: else that makes no difference */
-    int two_stage;       /* the viewport halves and moves */
+    int two_stage;       /* the viewport scales and moves */
+    int ranged;          /* to other ends than 0 and 1 */
     int remap;           /* the vertex shader halves and moves */
     int few_steps;       /* the numerator, below, falls by so few steps of its lattice that each counts */
     dp_span reach;       /* the depths that enter: near and far in binary32, at most its largest number */
-    double below, above; /* how far g leaves [0, 1] inside the planes: it is clamped there */
+    double below, above; /* how far g leaves its range at the lower and the upper end of NDC, inside the planes: it may
+                            be clamped there */
+    double ends[2];      /* the range, at near and at far */
+    double ends_off;     /* the most that g is beside it by the roundings of the viewport's numbers */
 } dp_chain;
 
 dp_chain dp_chain_make(const dp_setup *setup, const dp_pipeline *pipeline);

@@ -28,6 +28,12 @@ static inline float dp_clip_remap(const dp_pipeline *p, float clip, float w) {
     return sum * 0.5f;
 }
 
+/* fl(fl(S ndc) + O), or fused */
+static inline float dp_clip_viewport(const dp_pipeline *p, float ndc) {
+    const float product = p->scale * ndc;
+    return p->arith->fused ? fmaf(p->scale, ndc, p->offset) : product + p->offset;
+}
+
 static inline float dp_clip_window(const dp_pipeline *p, float clip, float w) {
     float ndc;
     if (p->arith->reciprocal != DP_RECIPROCAL_NONE) {
@@ -36,10 +42,7 @@ static inline float dp_clip_window(const dp_pipeline *p, float clip, float w) {
     } else {
         ndc = clip / w;
     }
-    if (!dp_clip_is_signed(p))
-        return ndc;
-    const float half = 0.5f * ndc;
-    return half + 0.5f;
+    return p->moved ? dp_clip_viewport(p, ndc) : ndc;
 }
 
 #endif

@@ -2,21 +2,26 @@
 /*
  * Curves: from lattice points back to eye depths, and differences of eye depths without cancellation.
  *
- * With t the share of the way from the near to the far end (t = d, or q when reversed) and s = 1 - t:
+ * With t the share of the way from the near to the far end (t = d, or q when reversed) and s = 1 - t, both from 0 to 1
+ * (what lies beyond the ends of a viewport's range counts as the end):
  *
  *     PERSPECTIVE   1/z = s/n + t/f
  *     LINEAR        z = s anchor + t f
  *     LOG           C (z - anchor) + 1 = (C (f - anchor) + 1)^t, C = 1/n where that is z/n = (f/n)^t
  *
  * The private fields of dp_setup:
+ *     reversed    d falls with z
  *     curve       the curve in force: an orthographic projection turns PERSPECTIVE into LINEAR
  *     shader      LOG: the separation is that of the shader, see dp_setup_guaranteed()
  *     anchor      the depth that a LINEAR or LOG curve sends to its near end: near or 0
  *     log_c       LOG: C, or 1/n, rounded, where the logarithm is that of z/n
  *     log_by      LOG: C, or 0 where the logarithm is that of z/n
  *     spans_zero  depth 0 lies between the planes: eye depths are differences, and take the exact way
- *     kappa       PERSPECTIVE: 1/n - 1/f; LINEAR: f - anchor; LOG: the logarithm at far
- *     scale       d is this times (z - n)/z, (f - z)/z, z - n, f - z, z or the logarithm
+ *     ends        window depth at near and at far, binary32 numbers
+ *     ranged      the ends are not those of [0, 1]: a viewport moves depth, d = low + span d' with d' what follows
+ *     low, span   the lesser end, and how far apart they are
+ *     kappa       PERSPECTIVE: 1/n - 1/f; LINEAR: f - anchor; LOG: the logarithm at far; over span
+ *     scale       d' is this times (z - n)/z, (f - z)/z, z - n, f - z, z or the logarithm
  *     den         lattice points and rounding boundaries are num/den: UNORM 2 (2^N - 1); FLOAT 1
  *     log_hi, log_lo        LOG: the logarithm at far as an unevaluated sum of two doubles
  *     code_near, code_far   the codes of the two planes

@@ -99,23 +99,23 @@ static windows windows_of(const dp_chain *c, double near, double far) {
 }
 
 /*
- * Where the window depth of one of the two leaves [0, 1] it is clamped, and its own errors count no more: the other
+ * Where the window depth of one of the two leaves its range it is clamped, and its own errors count no more: the other
  * one's do, all of them, and how far g itself goes beyond.
  */
 static int clamp_nearer(const dp_chain *c, dp_demand *d, double full2, const windows *at, double off1) {
-    const int reversed = c->pipeline.reversed;
     const double off = off1 + at->near_more;
-    const int clamped = reversed ? at->near + off >= 1.0 : at->near - off <= 0.0;
+    const int clamped = c->pipeline.reversed ? at->near + off >= c->ends[0] : at->near - off <= c->ends[0];
     if (clamped)
-        keep_larger(d, (reversed ? c->above : c->below) + full2 + d->rest, fabs(c->pipeline.ortho ? c->a : c->b));
+        keep_larger(d, (c->pipeline.clip_reversed ? c->above : c->below) + full2 + d->rest,
+                    fabs(c->pipeline.ortho ? c->a : c->b));
     return clamped;
 }
 
 static void clamp_farther(const dp_chain *c, dp_demand *d, double full1, const windows *at, double off2) {
-    const int reversed = c->pipeline.reversed;
     const double off = off2 + at->far_more;
-    if (reversed ? at->far - off <= 0.0 : at->far + off >= 1.0)
-        keep_larger(d, (reversed ? c->below : c->above) + full1 + d->rest, fabs(c->pipeline.ortho ? c->a : c->b));
+    if (c->pipeline.reversed ? at->far - off <= c->ends[1] : at->far + off >= c->ends[1])
+        keep_larger(d, (c->pipeline.clip_reversed ? c->below : c->above) + full1 + d->rest,
+                    fabs(c->pipeline.ortho ? c->a : c->b));
 }
 
 /*
@@ -168,7 +168,7 @@ static dp_demand demand_falling(const dp_chain *c, double nearest, double rise, 
     const double t = s1->numerator;
     if (!(t > 0.0) || isinf(rise))
         return (dp_demand){.window = 1.0, .slope = 0.0};
-    const int multiplied = c->pipeline.reversed && !c->two_stage && !c->run;
+    const int multiplied = c->pipeline.clip_reversed && !c->two_stage && !c->run;
     const double projection = c->half * rise / nearest * (1.0 + DP_UNIT);
     const double rest = quotient + projection;
     const double factor = c->half * t;

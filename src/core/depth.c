@@ -7,7 +7,8 @@
 #include "core/engine.h"
 #include "depthprec/pipeline.h"
 
-double dp_window(const dp_setup *setup, double z) {
+/* The window depth of [0, 1], before a viewport moves it: that from its lesser end. */
+static inline double unmoved(const dp_setup *setup, double z) {
     const double n = setup->spec.znear;
     const double f = setup->spec.zfar;
     double d;
@@ -16,7 +17,7 @@ double dp_window(const dp_setup *setup, double z) {
     if (setup->curve == DP_CURVE_LOG)
         d = dp_log1p(setup->log_c * (z - setup->anchor)) / setup->kappa;
     else if (setup->curve == DP_CURVE_LINEAR)
-        d = (setup->reversed ? f - z : z - setup->anchor) / setup->kappa;
+        d = (setup->reversed ? f - z : z - setup->anchor) / (setup->kappa * setup->span);
     else if (isinf(f))
         d = setup->reversed ? n / z : (z - n) / z;
     else
@@ -24,8 +25,14 @@ double dp_window(const dp_setup *setup, double z) {
     return d < 1.0 ? d : 1.0;
 }
 
+double dp_window(const dp_setup *setup, double z) {
+    const double d = unmoved(setup, z);
+    return setup->ranged ? setup->low + setup->span * d : d;
+}
+
 double dp_eye(const dp_setup *setup, double d, double q) {
-    if (setup->spans_zero) /* both are taken as they are given: next to 0 neither stands for the other */
+    if (setup->spans_zero &&
+        !setup->ranged) /* both are taken as they are given: next to 0 neither stands for the other */
         return dp_exact_residual(1.0, setup->reversed ? d : q, setup->spec.znear, 0.0, 1.0, setup->reversed ? q : d,
                                  setup->spec.zfar, 0.0);
     return dp_curve_eye(setup, (dp_point){d, q, 1.0});
@@ -128,10 +135,11 @@ dp_cell dp_cell_of(const dp_setup *setup, uint32_t code) {
         return cell;
     }
     /* From the near plane or a boundary to a boundary or the far plane. Planes lie on the lattice, but for the near
-       plane of the linear and logarithmic mappings. */
+       plane of the linear and logarithmic mappings, and both where a viewport moves depth. */
     const int first = code == setup->code_near;
     const int last = code == setup->code_far;
-    const int off_lattice = first && !spec->ortho && dp_mapping_get(spec->mapping)->curve != DP_CURVE_PERSPECTIVE;
+    const int off_lattice =
+        first && (setup->ranged ? !last : !spec->ortho && dp_mapping_get(spec->mapping)->curve != DP_CURVE_PERSPECTIVE);
     const double end = setup->den;
     const dp_point to_near =
         first ? dp_point_make(reversed ? end : 0.0, end) : dp_boundary_below(setup, code + (uint32_t)reversed).point;
@@ -142,6 +150,8 @@ dp_cell dp_cell_of(const dp_setup *setup, uint32_t code) {
     cell.hi = last ? spec->zfar : fmin(fmax(dp_curve_eye(setup, to_far), cell.lo), spec->zfar);
     cell.width = isinf(cell.hi) ? HUGE_VAL
                  : off_lattice  ? dp_curve_gap(setup, to_far, spec->znear)
-                                : dp_curve_span(setup, to_near, to_far);
+                 : setup->ranged && last
+                     ? (first ? spec->zfar - spec->znear : -dp_curve_gap(setup, to_near, spec->zfar))
+                     : dp_curve_span(setup, to_near, to_far);
     return cell;
 }

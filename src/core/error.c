@@ -39,7 +39,7 @@ static double window_error(const computed *m, dp_span r) {
     const double entries = larger(fabs(m->a * r.lo + m->b) / w1, fabs(m->a * r.hi + m->b) / w2);
     const double full = dp_chain_steps(c, r).full;
     const double high = larger(dp_chain_window(c, r.lo), dp_chain_window(c, r.hi)) + full;
-    return (full + c->half * (entries + unknown) + dp_stored_error(&c->pipeline, high)) * DP_OUTWARD;
+    return (full + c->half * (entries + unknown) + c->ends_off + dp_stored_error(&c->pipeline, high)) * DP_OUTWARD;
 }
 
 /* The decoded depth lies between the planes, and is nearer to the eye by no more than it may lie behind. */

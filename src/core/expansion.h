@@ -54,4 +54,9 @@ static inline dp_pair dp_pair_product(dp_pair a, dp_pair b) {
  */
 double dp_exact_residual(double p, double a, double x1, double x2, double q, double b, double y1, double y2);
 
+/* The same of a and b that are each a sum of three terms. */
+enum { DP_SUM_TERMS = 3 };
+double dp_exact_sums(double p, const double a[DP_SUM_TERMS], double x1, double x2, double q,
+                     const double b[DP_SUM_TERMS], double y1, double y2);
+
 #endif

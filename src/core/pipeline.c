@@ -70,12 +70,19 @@ dp_status dp_pipeline_init(dp_pipeline *pipeline, const dp_setup *setup) {
     const dp_arith_row *arith = dp_arith_get(spec->arith);
     if (row == NULL || arith == NULL || row->curve != DP_CURVE_PERSPECTIVE)
         return DP_ERROR_MODEL;
+    const int is_signed = row->ndc_signed && !arith->remap;
+    const double *range = spec->depth_range;
+    const double lo = (double)(float)range[0], hi = (double)(float)range[1];
     *pipeline = (dp_pipeline){.format = spec->format,
                               .rounding = spec->rounding,
                               .arith = arith,
                               .a = setup->matrix[0],
                               .b = setup->matrix[1],
-                              .reversed = row->reversed,
+                              .scale = (float)(is_signed ? 0.5 * (hi - lo) : hi - lo),
+                              .offset = (float)(is_signed ? 0.5 * (lo + hi) : lo),
+                              .reversed = setup->reversed,
+                              .clip_reversed = row->reversed,
+                              .moved = is_signed || setup->ranged,
                               .ndc_signed = row->ndc_signed,
                               .ortho = spec->ortho != 0,
                               .znear = setup->inside[0],
@@ -146,11 +153,11 @@ int dp_pipeline_drawn(const dp_pipeline *p, float z) {
 
 /* Depths are walked as integers, their ranks. */
 static int near_keeps(const dp_pipeline *p, uint32_t rank) {
-    return p->reversed ? below_upper(p, dp_ranked32(rank)) : above_lower(p, dp_ranked32(rank));
+    return p->clip_reversed ? below_upper(p, dp_ranked32(rank)) : above_lower(p, dp_ranked32(rank));
 }
 
 static int far_keeps(const dp_pipeline *p, uint32_t rank) {
-    return p->reversed ? above_lower(p, dp_ranked32(rank)) : below_upper(p, dp_ranked32(rank));
+    return p->clip_reversed ? above_lower(p, dp_ranked32(rank)) : below_upper(p, dp_ranked32(rank));
 }
 
 /* z, fl(A z) and z_clip stay in one binade each, so that all three have one step throughout lo..hi. */

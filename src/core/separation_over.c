@@ -248,7 +248,7 @@ static void over_binades(const search *s) {
     const int lowest = 1 - format->bias;
     for (int e = dp_binade(format, dp_window(setup, out->lo)) + 1; e >= lowest; e--) {
         const double end = e == lowest ? out->hi : dp_curve_eye(setup, dp_point_make(dp_power2(e), 1.0));
-        if (end * (1.0 + DP_ROUNDINGS_126) < out->lo)
+        if (end * (1.0 + DP_ROUNDINGS_126) < out->lo || dp_power2(e) > setup->ends[0])
             continue;
         const double z = smaller(end * (1.0 + DP_ROUNDINGS_126), out->hi);
         raise_bound(out, with_eye(setup, z, z, dp_curve_ahead(setup, dp_step_num(format, e), 1.0, z)));

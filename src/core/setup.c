@@ -49,6 +49,16 @@ static int far_is_held(const dp_spec *spec, const dp_mapping_row *row) {
     return spec->zfar <= 1e18 || (spec->zfar <= 1e28 && spec->znear * spec->zfar <= 1e30 && by * spec->zfar <= 1e30);
 }
 
+/* Whether a viewport moves depth. */
+static int has_range(const double range[2]) {
+    return (range[0] != 0.0 || range[1] != 1.0) && (range[0] != 0.0 || range[1] != 0.0);
+}
+
+static int range_is_sound(const double range[2], const dp_mapping_row *row) {
+    const int ends = within(range[0], 1e-6, 1.0) + (range[0] == 0.0) + within(range[1], 1e-6, 1.0) + (range[1] == 0.0);
+    return !has_range(range) || (ends == 2 && fabs(range[1] - range[0]) >= 1e-6 && row->curve == DP_CURVE_PERSPECTIVE);
+}
+
 static dp_status check(const dp_spec *spec) {
     const dp_mapping_row *row = dp_mapping_get(spec->mapping);
     if (row == NULL)
@@ -74,6 +84,8 @@ static dp_status check(const dp_spec *spec) {
         {!isinf(spec->zfar) || (row->far_infinite && !spec->ortho), DP_ERROR_INFINITE},
         {spec->model != DP_MODEL_FLOAT || row->curve == DP_CURVE_PERSPECTIVE, DP_ERROR_MODEL},
         {row->curve != DP_CURVE_LOG || row->log_over_near || within(spec->log_c, 1e-12, 1e12), DP_ERROR_LOG_C},
+        {range_is_sound(spec->depth_range, row), DP_ERROR_WINDOW},
+        {spec->model != DP_MODEL_STAGED || !has_range(spec->depth_range), DP_ERROR_MODEL},
         {spec->triangles.width == 0 || (!spec->ortho && dp_triangles_check(&spec->triangles) == DP_OK),
          DP_ERROR_TRIANGLES},
     };
@@ -99,6 +111,18 @@ dp_setup dp_setup_guaranteed(const dp_setup *setup) {
     return out;
 }
 
+/* The ends of the window depths, exactly: binary32 numbers of which none is small. */
+static void set_range(dp_setup *setup, const dp_mapping_row *row) {
+    double *range = setup->spec.depth_range;
+    setup->ranged = has_range(range);
+    range[1] = setup->ranged ? range[1] : 1.0;
+    for (int i = 0; i < 2; i++)
+        setup->ends[i] = (double)(float)(range[row->reversed ? 1 - i : i] + 0.0); /* -0 is 0 */
+    setup->reversed = setup->ends[1] < setup->ends[0];
+    setup->low = setup->ends[!setup->reversed ? 0 : 1];
+    setup->span = fabs(setup->ends[1] - setup->ends[0]);
+}
+
 dp_status dp_setup_init(dp_setup *setup, const dp_spec *spec) {
     if (setup == NULL || spec == NULL)
         return DP_ERROR_NULL;
@@ -111,14 +135,14 @@ dp_status dp_setup_init(dp_setup *setup, const dp_spec *spec) {
     const double f = spec->zfar + 0.0;
     *setup = (dp_setup){.spec = *spec,
                         .curve = spec->ortho ? DP_CURVE_LINEAR : row->curve,
-                        .reversed = row->reversed,
                         .spans_zero = n < 0.0 && f > 0.0,
                         .den = dp_point_den(&spec->format)};
+    set_range(setup, row);
     setup->spec.znear = n;
     setup->spec.zfar = f;
     if (setup->curve == DP_CURVE_PERSPECTIVE) {
         setup->kappa = isinf(f) ? 1.0 / n : (f - n) / n / f;
-        setup->scale = isinf(f) ? 1.0 : (row->reversed ? n : f) / (f - n);
+        setup->scale = isinf(f) ? 1.0 : (setup->reversed ? n : f) / (f - n);
     } else if (setup->curve == DP_CURVE_LINEAR) {
         setup->anchor = spec->ortho ? n : 0.0;
         setup->kappa = f - setup->anchor;
@@ -131,17 +155,17 @@ dp_status dp_setup_init(dp_setup *setup, const dp_spec *spec) {
         setup->log_hi = top.hi;
         setup->log_lo = top.lo;
     }
+    if (setup->ranged)
+        setup->kappa /= setup->span;
     if (row->curve == DP_CURVE_PERSPECTIVE)
         dp_pipeline_prepare(setup);
-    const uint32_t code_max = spec->format.code_max;
-    const uint32_t near_end = row->reversed ? code_max : 0;
-    /* Only linear and logarithmic mappings can store near as something else than an end of [0, 1]. */
-    setup->code_near = near_end;
+    /* Only linear and logarithmic mappings can store near as something else than an end. */
+    setup->code_near = dp_format_encode(&spec->format, spec->rounding, setup->ends[0]);
     if (!spec->ortho && row->curve != DP_CURVE_PERSPECTIVE) {
         int certain;
         setup->code_near = dp_code_exact(setup, n, dp_code_quick(setup, n, &certain));
     }
-    setup->code_far = code_max - near_end;
+    setup->code_far = dp_format_encode(&spec->format, spec->rounding, setup->ends[1]);
     if (spec->model == DP_MODEL_FLOAT) {
         setup->code_near = dp_code(setup, n);
         setup->code_far = dp_code(setup, f);

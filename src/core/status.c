@@ -31,6 +31,9 @@ static const char *const sentences[DP_STATUS_COUNT] = {
     [DP_ERROR_CONVENTION] =
         "more than one convention fits the matrix: say which of d3d, gl, reversed, gl-reversed, and "
         "whether it lies by rows or by columns",
+    [DP_ERROR_WINDOW] =
+        "a depth range must have two ends from 0 to 1 and at least 1e-6 apart, each 0 or at least 1e-6, "
+        "and one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE,
 };
 
 const char *dp_status_text(dp_status status) {

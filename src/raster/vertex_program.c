@@ -33,8 +33,8 @@ NAMED_TABLE(vertex_program, rows);
 static void entries_of(const dp_setup *setup, const dp_pipeline *p, double *a, double *b) {
     const double n = setup->spec.znear, f = setup->spec.zfar;
     const double zero = p->ndc_signed ? -1.0 : 0.0;
-    const double at_near = p->reversed ? 1.0 : zero;
-    const double at_far = p->reversed ? zero : 1.0;
+    const double at_near = p->clip_reversed ? 1.0 : zero;
+    const double at_far = p->clip_reversed ? zero : 1.0;
     if (p->ortho) {
         *a = (at_far - at_near) / (f - n);
         *b = at_near - *a * n;

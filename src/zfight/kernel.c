@@ -155,8 +155,11 @@ KERNEL uint32_t codes(const census_plan *plan, const float *restrict z, size_t c
         EACH value[i] = dp_pipeline_divide(&by_unit, value[i], z[i]);
     else if (!p->ortho)
         EACH value[i] = value[i] / z[i];
-    if (p->ndc_signed && !p->arith->remap)
-        EACH value[i] = 0.5f * value[i] + 0.5f;
+    const float scale = p->scale, offset = p->offset;
+    if (p->moved && p->arith->fused)
+        EACH value[i] = fmaf(scale, value[i], offset);
+    else if (p->moved)
+        EACH value[i] = scale * value[i] + offset;
     convert(plan, value, count, key);
     return lost;
 }

@@ -228,9 +228,10 @@ TEST(random_ranges) {
         if (spec.ortho && rng_below(&r, 2))
             rng_planes(&r, &spec.znear, &spec.zfar);
         const int either_sign = spec.znear <= 0;
+        if (spec.mapping <= DP_MAPPING_GL_REVERSED && rng_below(&r, 3) == 0)
+            rng_range(&r, spec.depth_range);
         spec.log_c = rng_below(&r, 2) ? 1 : rng_log(&r, 1e-6, 1e6);
-        if (!isinf(spec.zfar))
-            spec.zfar = fmin(spec.zfar, most_far(&spec));
+        spec.zfar = isinf(spec.zfar) ? INFINITY : fmin(spec.zfar, most_far(&spec));
         int e = 2 + (int)rng_below(&r, 7), pick = (int)rng_below(&r, 6);
         if (pick < 2)
             spec.format = oracle_unorm(pick == 0 ? 16 : 1 + (int)rng_below(&r, 20));

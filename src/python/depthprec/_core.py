@@ -17,7 +17,7 @@ MODELS = ("exact", "staged", "float")
 ROUNDINGS = ("nearest", "even", "zero")
 STATUSES = ("OK", "NULL", "NEAR", "FAR", "PLANES", "INFINITE", "ORTHO", "LOG_C", "FORMAT", "MAPPING", "ROUNDING",
             "MODEL", "ARITH", "DEPTH", "RANGE", "BINARY32", "BATCH", "ORTHO_NEAR", "ORTHO_FAR", "TRIANGLES", "MATRIX",
-            "CONVENTION")  # DP_OK, DP_ERROR_...
+            "CONVENTION", "WINDOW")  # DP_OK, DP_ERROR_...
 LAYOUTS = {None: 0, "rows": 1, "columns": 2}
 MAPPING_FOUND = 10  # DP_MAPPING_COUNT
 ANCHORS = 4  # DP_ANCHOR_COUNT
@@ -35,9 +35,10 @@ AnchorRow = _structure("dp_anchor_row", name=c_char_p, plane=PlaneError, note=c_
 Triangles = _structure("dp_triangles", width=c_int, height=c_int, fov_y=c_double, subpixel=c_int, plane=PlaneError,
                        slant_lo=c_double, slant_hi=c_double, depth=c_double, pixels=c_double, slim=c_double)
 Spec = _structure("dp_spec", znear=c_double, zfar=c_double, ortho=c_int, mapping=c_int, format=Format, rounding=c_int,
-                  model=c_int, arith=c_size_t, log_c=c_double, triangles=Triangles)
-Setup = _structure("dp_setup", spec=Spec, curve=c_int, reversed=c_int, shader=c_int, anchor=c_double, log_c=c_double,
-                   log_by=c_double, spans_zero=c_int, kappa=c_double, scale=c_double, den=c_double, log_hi=c_double,
+                  model=c_int, arith=c_size_t, log_c=c_double, depth_range=c_double * 2, triangles=Triangles)
+Setup = _structure("dp_setup", spec=Spec, curve=c_int, reversed=c_int, shader=c_int, ranged=c_int, anchor=c_double,
+                   log_c=c_double, log_by=c_double, spans_zero=c_int, ends=c_double * 2, low=c_double, span=c_double,
+                   kappa=c_double, scale=c_double, den=c_double, log_hi=c_double,
                    log_lo=c_double, code_near=c_uint32, code_far=c_uint32, matrix=c_float * 2, inside=c_float * 2)
 Batch = _structure("dp_batch", setup=Setup, task=c_int, real=c_int, word=c_int, path=c_int, in_size=c_size_t,
                    out_size=c_size_t, opaque=c_uint64 * 48)
