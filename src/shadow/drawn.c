@@ -159,8 +159,7 @@ void shadow_scene_stand(shadow_drawing *d, const shadow_scene *scene, const shad
     shadow_light asked = *d->light;
     double lo, hi, most = 0.0;
     depths_of(d, scene, &lo, &hi);
-    /* The casters' own units count: of a reversed map they are worth most at the near plane. */
-    asked.receiver_lo = d->light->setup.reversed ? d->light->setup.spec.znear : lo;
+    asked.receiver_lo = lo;
     asked.receiver_hi = hi;
     for (int k = 0; k < SHADOW_WAY_COUNT; k++) {
         const shadow_state state = shadow_state_of(d->light, &need->bias[k], d->api);

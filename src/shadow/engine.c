@@ -81,7 +81,7 @@ static void along_ray(const shadow_light *light, const ground *g, double length,
     const bool depth = light->kind != SHADOW_SUN && !shadow_holds_distance(light);
     const double z = g->z, left = z - length;
     out->window_least += length / g->depth * (depth ? dp_cos(g->corner) : 1.0);
-    out->window_most += !depth ? length / g->depth : left > 0.0 ? length * z / left / g->depth : (double)INFINITY;
+    out->rest_most += !depth ? length / g->depth : left > 0.0 ? length * z / left / g->depth : (double)INFINITY;
 }
 
 shadow_given shadow_engine_gives(const shadow_engine *engine, const shadow_light *light, const bias_api *api,
@@ -96,7 +96,8 @@ shadow_given shadow_engine_gives(const shadow_engine *engine, const shadow_light
     const bias_unit high = bias_unit_at(api, &setup->spec.format, fmax(lo, hi));
     const double units = shadow_holds_distance(light) ? 0.0 : engine->units + (counted ? value : 0.0);
     shadow_given given = {.window_least = units * low.least,
-                          .window_most = units * (isfinite(high.most) ? high.most : high.least),
+                          .units = units,
+                          .api = api,
                           .factor = shadow_holds_distance(light) ? 0.0 : engine->factor + (counted ? value : 0.0),
                           .offset =
                               normal * engine->normal_scale[kind] * by * length_of(engine->normal_in[kind], light, &g),
@@ -105,13 +106,14 @@ shadow_given shadow_engine_gives(const shadow_engine *engine, const shadow_light
     given.offset_most = given.offset / (leans ? dp_cos(g.corner) : 1.0); /* the distance of a point in the corner */
     if (engine->bias_in[kind] == SHADOW_IN_CLIP && !shadow_holds_distance(light)) {
         given.window_least += value * setup->spec.zfar * dp_cos(g.corner) / (g.z * g.z);
-        given.window_most += value * setup->spec.zfar / (g.z * g.z);
+        given.rest_most += value * setup->spec.zfar / (g.z * g.z);
     } else if (engine->bias_in[kind] == SHADOW_IN_WINDOW) {
         given.window_least += value;
-        given.window_most += value;
+        given.rest_most += value;
     } else {
         along_ray(light, &g, value * length_of(engine->bias_in[kind], light, &g), &given);
     }
+    given.window_most = given.rest_most + units * (isfinite(high.most) ? high.most : high.least);
     return given;
 }
 
@@ -196,13 +198,17 @@ shadow_verdict shadow_judge(const shadow_light *light, const shadow_given *given
     const double turned = grown(given->growth, shadow_radians(most));
     const bool sines = light->kind == SHADOW_SUN || shadow_holds_distance(light);
     const double sine = dp_sin(shadow_radians(most));
-    const shadow_bias set = {.window = given->window_most,
-                             .factor = given->factor,
-                             .offset = given->offset_most == 0.0
-                                           ? 0.0
-                                           : given->offset_most * turned / (sines ? fmax(sine, 1e-9) : 1.0) /
-                                                 (light->kind == SHADOW_SUN ? 1.0 : far.z)};
+    shadow_bias set = {.window = given->rest_most,
+                       .factor = given->factor,
+                       .offset = given->offset_most == 0.0
+                                     ? 0.0
+                                     : given->offset_most * turned / (sines ? fmax(sine, 1e-9) : 1.0) /
+                                           (light->kind == SHADOW_SUN ? 1.0 : far.z)};
     double normal;
+    if (given->units > 0.0)
+        set.window += shadow_casters_window(light, &set, given->api, given->units);
+    else
+        set.window = given->window_most;
     shadow_gap_at(light, &set, most, &v.gap, &normal);
     return v;
 }

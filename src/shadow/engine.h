@@ -54,6 +54,9 @@ typedef struct shadow_given {
     double factor;
     double offset;      /**< along the normal at 90 degrees, or at any angle, scene units; where that is least */
     double offset_most; /**< and where it is most */
+    double units;       /**< of the API, which are part of both window depths; their worth is that of receivers there */
+    double rest_most;   /**< window_most without them */
+    const bias_api *api;
     shadow_growth growth;
 } shadow_given;
 
@@ -76,7 +79,7 @@ double shadow_normal_as(const shadow_engine *engine, const shadow_light *light, 
 typedef struct shadow_verdict {
     double free; /**< no surface has acne up to that angle, degrees, in steps of a tenth; -1: facing ones may */
     double acne; /**< a surface on the axis has acne at that angle, by the filter alone; NaN: none up to the greatest */
-    double gap;  /**< the widest along the light, at the greatest angle, scene units */
+    double gap;  /**< the widest along the light, at the greatest angle, of casters wherever they are, scene units */
 } shadow_verdict;
 
 /** Of receivers of that light from receiver_lo to receiver_hi, at most an eighth of an octave. */

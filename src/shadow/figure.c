@@ -21,13 +21,16 @@ enum { POINTS = 181 };
 typedef struct mapped {
     const shadow_light *light;
     shadow_need need;
-    double depth; /* scene units that are all of window depth there */
+    shadow_bias added[SHADOW_WAY_COUNT]; /* as the engine's API adds them */
+    double depth;                        /* scene units that are all of window depth there */
     const figure_request *request;
 } mapped;
 
 static mapped mapped_of(const figure_request *request, const shadow_light *light) {
     mapped m = {.light = light, .request = request};
     shadow_need_of(light, &m.need);
+    for (int k = 0; k < SHADOW_WAY_COUNT; k++)
+        m.added[k] = request->api != NULL ? shadow_as_added(light, &m.need.bias[k], request->api) : m.need.bias[k];
     m.depth = shadow_ground_at(light, light->receiver_lo).depth;
     return m;
 }
@@ -80,7 +83,7 @@ static double given_at(const mapped *m, int which, double angle) {
 
 static double gap_at(const mapped *m, int way, double angle) {
     double along_light, along_normal;
-    shadow_gap_at(m->light, &m->need.bias[way], angle, &along_light, &along_normal);
+    shadow_gap_at(m->light, &m->added[way], angle, &along_light, &along_normal);
     return along_light;
 }
 

@@ -238,14 +238,74 @@ static double least_depth(const shadow_light *light, const shadow_bias *bias) {
     return fmax(fmin(lo, hi) - need.bias[SHADOW_CONSTANT].window, 0.0);
 }
 
-void shadow_state_widen(const shadow_light *light, const shadow_bias *bias, const bias_api *api, shadow_state *state) {
+/* ---- Casters ----------------------------------------------------------------------------------------------------- */
+
+/* The depth of the farthest caster whose triangle reaches to where window depth is d, of a reversed map. */
+static double farthest_at(const shadow_light *light, double d) {
     const dp_setup *setup = &light->setup;
+    const dp_triangles *t = &light->triangles;
+    const ground g = shadow_ground_at(light, fmax(dp_eye(setup, d, 1.0 - d), setup->spec.znear));
+    const double least = d * (1.0 - 4.0 * eps) - g.vertex_depth - g.placed_depth; /* is rounded to d, perhaps */
+    const double z = least > 0.0 ? dp_eye(setup, least, 1.0 - least) : (double)INFINITY;
+    return light->kind == SHADOW_SUN ? z + t->pixels * g.diagonal * dp_tan(shadow_radians(t->slant_hi)) : z * t->depth;
+}
+
+/* Whether a caster at z with that bias may not yet be in front of all receivers, by the bias and what the constant bias
+ * covers. */
+static bool lacks_room(const shadow_light *light, const shadow_bias *set, double z) {
+    const double angle = shadow_radians(light->triangles.slant_hi), kappa = light->setup.kappa;
+    const ground g = shadow_ground_at(light, z);
+    shadow_light at = *light;
+    shadow_need need;
+    double along, normal, back;
+    at.receiver_lo = at.receiver_hi = z;
+    if (!(z < light->receiver_lo))
+        return true;
+    if (shadow_light_check(&at) != SHADOW_OK) /* so near, positions are nothing in binary32 */
+        return false;
+    shadow_need_of(&at, &need);
+    const double covered = need.bias[SHADOW_CONSTANT].window;
+    if (light->kind == SHADOW_SUN || shadow_holds_distance(light)) {
+        shadow_gap_at(light, set, light->triangles.slant_hi, &along, &normal);
+        return !(z + along + covered * g.depth < light->receiver_lo);
+    }
+    /* Of 1/depth, in parts of the caster's. The point was moved, and is looked up where the plane may be nearer. */
+    const double steep = times(set->factor, steepest_of(light, &g, shadow_lean(light, &g, angle), 1.0)) / z;
+    const double left = 1.0 - set->offset / dp_cos(angle);
+    back = left > 0.0 ? 1.0 / (left * (1.0 - set->offset)) : (double)INFINITY;
+    return !(z * back / light->receiver_lo + z * kappa * (set->window + covered) + steep < 1.0);
+}
+
+double shadow_casters_window(const shadow_light *light, const shadow_bias *rest, const bias_api *api, double units) {
+    const dp_setup *setup = &light->setup;
+    const dp_format *format = &setup->spec.format;
     const double lo = dp_window(setup, light->receiver_lo), hi = dp_window(setup, light->receiver_hi);
-    const bias_unit high = bias_unit_at(api, &setup->spec.format, fmax(lo, hi));
-    shadow_bias set = *bias;
+    const bias_unit own = bias_unit_at(api, format, fmax(lo, hi));
+    shadow_bias set = *rest;
+    for (double d = 1.0; setup->reversed && bias_unit_at(api, format, d).most > own.most; d *= 0.5) {
+        const double window = units * bias_unit_at(api, format, d).most;
+        set.window = rest->window + window;
+        if (lacks_room(light, &set, farthest_at(light, d)))
+            return window;
+    }
+    return units * (isfinite(own.most) ? own.most : own.least);
+}
+
+shadow_bias shadow_as_added(const shadow_light *light, const shadow_bias *bias, const bias_api *api) {
+    const dp_format *format = &light->setup.spec.format;
+    const bool follow = bias_unit_at(api, format, 0.0).least < bias_unit_at(api, format, 1.0).least;
+    const double units = follow ? shadow_state_of(light, bias, api).units : (double)INFINITY;
+    shadow_bias added = *bias, rest = *bias;
+    rest.window = 0.0;
+    if (isfinite(units))
+        added.window = shadow_casters_window(light, &rest, api, units);
+    return added;
+}
+
+void shadow_state_widen(const shadow_light *light, const shadow_bias *bias, const bias_api *api, shadow_state *state) {
+    shadow_bias set = {.factor = state->factor, .offset = bias->offset};
     double along, normal, facing, same;
-    set.window = state->units * (isfinite(high.most) ? high.most : high.least);
-    set.factor = state->factor;
+    set.window = shadow_casters_window(light, &set, api, state->units);
     shadow_gap_at(light, &set, light->triangles.slant_hi, &along, &normal);
     shadow_gap_at(light, &set, 0.0, &facing, &same);
     state->gap_light = fmax(state->gap_light, along);

@@ -208,13 +208,26 @@ typedef struct shadow_state {
 
 /**
  * The fewest units that are worth bias->window or more wherever receivers lie. Where a unit's worth follows the depth's
- * exponent (float buffers of most APIs), that is decided by the smallest depth of receivers, and the gap is widest at
- * the greatest one.
+ * exponent (float buffers of most APIs), that is decided by the smallest depth of receivers, and the gap by casters
+ * that have the greatest: see shadow_casters_window().
  */
 shadow_state shadow_state_of(const shadow_light *light, const shadow_bias *bias, const bias_api *api);
 
-/** The gaps that a state opens on receivers of that light, where units are worth most: *state has the widest of both.
+/**
+ * The most window depth that so many units are worth, of casters that may not yet be in front of receivers of that
+ * light. Where a unit's worth follows the exponent of a primitive's greatest depth it is the caster's that counts: in a
+ * reversed map casters have greater depths than what they shade, and their triangles reach nearer still, as the class
+ * has them. In another map no triangle of a caster is taken to lie beyond receiver_hi.
+ * @param rest  what is added besides: window, factor and offset
  */
+double shadow_casters_window(const shadow_light *light, const shadow_bias *rest, const bias_api *api, double units);
+
+/** A bias as the API's units make it of casters, where a unit's worth follows the depth; else, and where no number of
+ * units is enough, itself. */
+shadow_bias shadow_as_added(const shadow_light *light, const shadow_bias *bias, const bias_api *api);
+
+/** The gaps that a state opens on receivers of that light, where units of casters are worth most: *state has the widest
+ * of both. */
 void shadow_state_widen(const shadow_light *light, const shadow_bias *bias, const bias_api *api, shadow_state *state);
 
 /* ---- Cascades ---------------------------------------------------------------------------------------------------- */

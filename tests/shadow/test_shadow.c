@@ -256,6 +256,27 @@ static double worth(const bias_api *api, const dp_format *format, double d) {
                                    : ldexp(1.0, -format->bits);
 }
 
+/*
+ * The greatest window depth in triangles of casters that may lack room: binade by binade from the light on, whether the
+ * farthest caster that reaches into it lies within bias and constant bias of the nearest receiver. 0 where it is close.
+ */
+static double top_of_casters(const shadow_light *light, const lengths *l, const shadow_need *need, double rest,
+                             double units, const bias_api *api, double factor) {
+    const double deep = light->receiver_lo - light->setup.spec.znear, top = 1 - deep / l->depth;
+    const double reach = light->triangles.pixels * l->diagonal * tan(light->triangles.slant_hi * pi / 180);
+    if (!light->setup.reversed)
+        return (light->receiver_hi - light->setup.spec.znear) / l->depth;
+    for (double d = 1; d > top; d /= 2) {
+        const double bias = units * worth(api, &light->setup.spec.format, d) * factor * l->depth + rest;
+        const double spare = deep - (1 - d) * l->depth - reach - bias - need->bias[SHADOW_CONSTANT].window * l->depth;
+        if (fabs(spare) < 1e-3 * l->depth)
+            return 0;
+        if (spare < 0)
+            return d;
+    }
+    return top;
+}
+
 TEST(test_states) {
     rng r = rng_make("shadow states");
     tally enough = {.name = "units enough"}, least = {.name = "units least"}, gaps = {.name = "gaps of units"};
@@ -289,13 +310,15 @@ TEST(test_states) {
                   counted ? (s.units - 1) * smallest <= b->window * (1 + 1e-6) && s.units == rint(s.units)
                           : s.units <= b->window * (1 + 1e-6),
                   "%s %s: %.17g times %.17g for %.17g", api->name, format->name, s.units, smallest, b->window);
-            const double deep = (light.setup.reversed ? light.receiver_lo : light.receiver_hi) - n0;
-            const double top = light.setup.reversed ? 1 - deep / depth : deep / depth;
             const bool is_float = format->kind == DP_FORMAT_FLOAT;
             const bool bound = is_float ? api->real == BIAS_EXPONENT && strchr("gvt", api->name[0]) != NULL /* n + 1 */
                                         : api->unorm == BIAS_BOUND;
-            const double wide =
-                s.units * worth(api, format, top) * (bound ? 2 : 1) * depth + b->gap_light - b->window * depth;
+            const lengths l = lengths_of(&light);
+            const double rest = b->gap_light - b->window * depth, times = bound ? 2 : 1;
+            const double top = top_of_casters(&light, &l, &need, rest, s.units, api, times);
+            if (top == 0)
+                continue;
+            const double wide = s.units * worth(api, format, top) * times * depth + rest;
             TALLY(&gaps,
                   fabs(s.gap_light / wide - 1) < 1e-6 && s.factor >= b->factor && s.factor <= b->factor * (1 + 1e-6),
                   "%s: %g not %g", api->name, s.gap_light, wide);

@@ -207,6 +207,106 @@ TEST(random_lights) {
     tally_end(&less);
 }
 
+/* ---- Casters anywhere ---------------------------------------------------------------------------------------------
+ */
+
+/* Where window depth of a reversed map falls short of a power of two by a part of it. */
+static double behind_octave(rng *r, const dp_spec *spec) {
+    const double d = ldexp(1.0 - rng_log(r, 1e-4, 0.2), -1 - (int)rng_below(r, 6));
+    return spec->ortho ? spec->zfar * (1.0 - d) : 1.0 / (d / spec->znear + (1.0 - d) / spec->zfar);
+}
+
+/* A float map whose receivers lie within half an octave: of many a unit is worth more just before the nearest. */
+static bool narrow_light(rng *r, int kind, shadow_light *l) {
+    if (!random_light(r, kind, 0, l))
+        return false;
+    const double lo = l->receiver_lo, hi = l->receiver_hi;
+    l->receiver_lo = l->kind == SHADOW_SUN ? rng_uniform(r, lo, hi) : rng_log(r, lo, hi);
+    if (l->setup.reversed && rng_below(r, 4) > 0)
+        l->receiver_lo = behind_octave(r, &l->setup.spec);
+    l->receiver_hi = fmin(l->receiver_lo * rng_log(r, 1.001, 1.5), hi);
+    return shadow_light_check(l) == SHADOW_OK;
+}
+
+/* Whether triangles of a map that is not reversed may reach from receivers into the next binade: it is not promised. */
+static bool reaches_behind(const shadow_light *l) {
+    const double z = l->receiver_hi, slope = tan(l->triangles.slant_hi * M_PI / 180.0);
+    const double texel = l->width / l->triangles.width;
+    const double farthest =
+        l->kind == SHADOW_SUN ? z + l->triangles.pixels * sqrt(2.0) * texel * slope : z * l->triangles.depth;
+    const double to = 1.00001 * farthest;
+    return !l->setup.reversed &&
+           (!(to < l->setup.spec.zfar) || ilogb(dp_window(&l->setup, to)) != ilogb(dp_window(&l->setup, z)));
+}
+
+/* The casters of a plane stand farther off than the gap that is told and the constant bias, by any factor. */
+static bool stand_beyond(rng *r, shadow_drawing *d, const shadow_scene *s, double told, double covered) {
+    const shadow_light *l = d->light;
+    const double hi = l->receiver_hi, depth = l->setup.kappa * (l->kind == SHADOW_SUN ? 1.0 : hi * hi);
+    const double least = (told + covered * depth) * (l->kind == SHADOW_SUN ? 1.0 : s->z / l->receiver_lo) * 1.000001;
+    const double most = 0.95 * (s->z - l->setup.spec.znear);
+    if (!(least < most))
+        return false;
+    d->within = 0.0;
+    d->beyond = rng_below(r, 2) ? least : rng_log(r, least, most);
+    return true;
+}
+
+static void check_told_gap(rng *r, shadow_drawing *d, const shadow_need *need, const bias_api *api, tally t[2],
+                           uint64_t counted[2]) {
+    const shadow_light *l = d->light;
+    const bias_api next = bias_next(api);
+    const bool open = bias_is_open(api, &l->setup.spec.format) && rng_below(r, 2);
+    const int way = (int)rng_below(r, SHADOW_WAY_COUNT);
+    const shadow_bias *b = &need->bias[way];
+    const shadow_state told = shadow_state_of(l, b, api);
+    shadow_scene s;
+    uint64_t seed = rng_next(r);
+    if (!isfinite(told.units) || !isfinite(b->factor) || !isfinite(b->offset) || !shadow_scene_random(d, &seed, &s) ||
+        !stand_beyond(r, d, &s, told.gap_light, need->bias[SHADOW_CONSTANT].window))
+        return;
+    const double sign = shadow_sign(l);
+    const shadow_worn worn = {.state = {open ? &next : api, sign * told.units, outward(sign * told.factor), 0.0},
+                              .offset = b->offset};
+    const shadow_drawn with = seen_with(d, &s, worn);
+    TALLY(&t[0], with.of[SHADOW_SEEN_ACNE] == 0, "%s %s, light %d: %llu at %g of %g degrees", api->name,
+          shadow_way_name((shadow_way)way), l->kind, (unsigned long long)with.of[SHADOW_SEEN_ACNE], s.slant,
+          l->triangles.slant_hi);
+    TALLY(
+        &t[1], with.of[SHADOW_SEEN_LEAK] == 0, "%s %s%s %s, light %d: %llu of %llu at %g, %g to %g of %g to %g, gap %g",
+        dp_mapping_get(l->setup.spec.mapping)->name, api->name, shadow_way_name((shadow_way)way), open ? ", open" : "",
+        l->kind, (unsigned long long)with.of[SHADOW_SEEN_LEAK], (unsigned long long)with.of[SHADOW_SEEN_DARK], s.z,
+        l->receiver_lo, l->receiver_hi, l->setup.spec.znear, l->setup.spec.zfar, told.gap_light);
+    counted[l->setup.reversed != 0] += with.of[SHADOW_SEEN_DARK];
+}
+
+TEST(casters_anywhere) {
+    static const char *const apis[] = {"d3d12", "gl", "vulkan", "metal"};
+    rng r = rng_make("casters anywhere");
+    tally t[2] = {{.name = "no acne by units"}, {.name = "dark beyond the gap that is told"}};
+    uint64_t dark[2] = {0};
+    for (uint64_t n = test_cases(150, 600, 60000); n > 0; n--) {
+        const int kind = (int)rng_below(&r, KINDS);
+        const bias_api *api = bias_api_find(apis[rng_below(&r, 4)]);
+        shadow_light l;
+        shadow_drawing d;
+        shadow_need need;
+        if (!narrow_light(&r, kind, &l) || reaches_behind(&l))
+            continue;
+        assert_int_equal(shadow_drawing_open(&d, raster_find(kinds[kind].name), &l), RASTER_OK);
+        d.api = api;
+        shadow_need_of(&l, &need);
+        for (int k = 0; k < 6; k++)
+            check_told_gap(&r, &d, &need, api, t, dark);
+        shadow_drawing_close(&d);
+    }
+    print_message("# %llu points dark, %llu of reversed maps\n", (unsigned long long)(dark[0] + dark[1]),
+                  (unsigned long long)dark[1]);
+    assert_true(dark[0] > 1000 && dark[1] > 1000);
+    tally_end(&t[0]);
+    tally_end(&t[1]);
+}
+
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
 /* What is told of each bias, and the picture of it. */
