@@ -212,7 +212,7 @@ TEST(random_lights) {
 
 /* Where window depth of a reversed map falls short of a power of two by a part of it. */
 static double behind_octave(rng *r, const dp_spec *spec) {
-    const double d = ldexp(1.0 - rng_log(r, 1e-4, 0.2), -1 - (int)rng_below(r, 6));
+    const double d = ldexp(1.0 - rng_log(r, 1e-4, 0.05), -1 - (int)rng_below(r, 6));
     return spec->ortho ? spec->zfar * (1.0 - d) : 1.0 / (d / spec->znear + (1.0 - d) / spec->zfar);
 }
 
@@ -224,7 +224,7 @@ static bool narrow_light(rng *r, int kind, shadow_light *l) {
     l->receiver_lo = l->kind == SHADOW_SUN ? rng_uniform(r, lo, hi) : rng_log(r, lo, hi);
     if (l->setup.reversed && rng_below(r, 4) > 0)
         l->receiver_lo = behind_octave(r, &l->setup.spec);
-    l->receiver_hi = fmin(l->receiver_lo * rng_log(r, 1.001, 1.5), hi);
+    l->receiver_hi = fmin(l->receiver_lo * rng_log(r, 1.0005, 1.5), hi);
     return shadow_light_check(l) == SHADOW_OK;
 }
 
@@ -257,7 +257,7 @@ static void check_told_gap(rng *r, shadow_drawing *d, const shadow_need *need, c
     const shadow_light *l = d->light;
     const bias_api next = bias_next(api);
     const bool open = bias_is_open(api, &l->setup.spec.format) && rng_below(r, 2);
-    const int way = (int)rng_below(r, SHADOW_WAY_COUNT);
+    const int way = rng_below(r, 2) ? SHADOW_CONSTANT : (int)rng_below(r, SHADOW_WAY_COUNT);
     const shadow_bias *b = &need->bias[way];
     const shadow_state told = shadow_state_of(l, b, api);
     shadow_scene s;
@@ -273,7 +273,7 @@ static void check_told_gap(rng *r, shadow_drawing *d, const shadow_need *need, c
           shadow_way_name((shadow_way)way), l->kind, (unsigned long long)with.of[SHADOW_SEEN_ACNE], s.slant,
           l->triangles.slant_hi);
     TALLY(
-        &t[1], with.of[SHADOW_SEEN_LEAK] == 0, "%s %s%s %s, light %d: %llu of %llu at %g, %g to %g of %g to %g, gap %g",
+        &t[1], with.of[SHADOW_SEEN_LEAK] == 0, "%s %s %s%s, light %d: %llu of %llu at %g, %g to %g of %g to %g, gap %g",
         dp_mapping_get(l->setup.spec.mapping)->name, api->name, shadow_way_name((shadow_way)way), open ? ", open" : "",
         l->kind, (unsigned long long)with.of[SHADOW_SEEN_LEAK], (unsigned long long)with.of[SHADOW_SEEN_DARK], s.z,
         l->receiver_lo, l->receiver_hi, l->setup.spec.znear, l->setup.spec.zfar, told.gap_light);
