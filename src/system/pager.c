@@ -25,14 +25,21 @@ _Noreturn static void be_pager(const int ends[2], const char *command) {
     _exit(127);
 }
 
+/* On a terminal that cannot move its cursor less complains and waits. */
+static const char *command_of(const char *asked, const char *terminal) {
+    if (asked != NULL)
+        return *asked != '\0' && strcmp(asked, "cat") != 0 ? asked : NULL;
+    return terminal != NULL && strcmp(terminal, "dumb") != 0 ? usual : NULL;
+}
+
 int pager_start(void) {
-    const char *asked = getenv("PAGER");
+    const char *command = command_of(getenv("PAGER"), getenv("TERM"));
     int ends[2];
-    if (!isatty(STDOUT_FILENO) || (asked != NULL && (*asked == '\0' || strcmp(asked, "cat") == 0)) || pipe(ends) != 0)
+    if (!isatty(STDOUT_FILENO) || command == NULL || pipe(ends) != 0)
         return -1;
     pager = fork();
     if (pager == 0)
-        be_pager(ends, asked != NULL ? asked : usual);
+        be_pager(ends, command);
     close(ends[0]);
     if (pager < 0) {
         close(ends[1]);

@@ -7,7 +7,7 @@
 #define SYSTEM_PAGER_H
 
 /** Starts it. From then on Ctrl-C is the pager's. @return what is to be written to; -1: stdout is no terminal, PAGER is
- * empty or cat, or there is none */
+ * empty or cat, TERM is dumb or not set and PAGER is not, or there is none */
 int pager_start(void);
 
 /** Waits until whoever reads has seen enough; what was written to is closed before. */

@@ -93,6 +93,7 @@ static char *on_terminal(const char *line, unsigned short columns) {
     const pid_t child = fork();
     if (child == 0) {
         setenv("TERM", "dumb", 1);
+        setenv("PAGER", "", 1); /* which would wait for its reader */
         dup2(terminal, STDOUT_FILENO);
         dup2(terminal, STDERR_FILENO);
         close(terminal);
