@@ -276,8 +276,9 @@ WEB_CC ?= clang --target=wasm32-wasi
 # Instructions that browsers and node have since 2020; there is one thread, and what belongs to it is the program's.
 WEB_FLAGS := $(WARN_clang) -Wno-shorten-64-to-32 $(EXACT) -Wno-pass-failed -fvisibility=hidden -ffunction-sections -fdata-sections \
     -mbulk-memory -msign-ext -mnontrapping-fptoint -D_Thread_local=
-# The lowest KiB is the far end of the stack: nothing else has an address there.
-WASM_OPT := --enable-bulk-memory --enable-sign-ext --enable-nontrapping-float-to-int --enable-mutable-globals \
+# The lowest KiB is the far end of the stack: nothing else has an address there. Large functions that are called once stay
+# apart: packed, the module is smaller so.
+WASM_OPT := -Oz --converge --one-caller-inline-max-function-size=20 --enable-bulk-memory --enable-sign-ext --enable-nontrapping-float-to-int --enable-mutable-globals \
     --low-memory-unused --strip-producers --strip-target-features
 # The stack below all else: what overflows it ends, and overwrites nothing.
 WEB_LINK = $(WEB_CC) -mexec-model=reactor -Wl,--gc-sections,--stack-first,-z,stack-size=1048576 -s
@@ -298,7 +299,7 @@ $(B)/web/obj/%.o: %.c Makefile
 $(B)/web/depthprec.wasm: $(WEB_O)
 	$(call say,WEB)
 	$(Q)$(WEB_LINK) -o $@.all $^
-	$(Q)wasm-opt -Oz $(WASM_OPT) -o $@ $@.all && rm $@.all
+	$(Q)wasm-opt $(WASM_OPT) -o $@ $@.all && rm $@.all
 
 # One file: no import works from file://, and no static host has to know WebAssembly.
 $(B)/depthprec.html: $(B)/web/depthprec.wasm $(wildcard src/web/*.html src/web/*.css src/web/*.js src/web/*.mjs)

@@ -13,7 +13,7 @@ const joined = (name) => run("esbuild", "--bundle", "--minify", "--log-level=war
 
 // Its header gets the number of bytes, which xz leaves open.
 function packed(path) {
-    const all = run("xz", "-k", "-c", "--format=lzma", "--lzma1=preset=9e,pb=0", path);
+    const all = run("xz", "-k", "-c", "--format=lzma", "--lzma1=preset=9e,lc=4,pb=0,nice=64", path);
     all.writeBigUInt64LE(BigInt(statSync(path).size), 5);
     return all;
 }
