@@ -62,10 +62,9 @@ static void judge_separation(const need *n, const need_camera *camera, const dp_
         judge_world(n, camera, asked, v);
         return;
     }
-    const bool heavy = camera->automatic || dp_is_computed(asked);
-    if (heavy && is_refused_by_lattice(n, asked, v))
+    if (camera->automatic && is_refused_by_lattice(n, asked, v))
         return;
-    const dp_setup setup = heavy ? dp_setup_guaranteed(asked) : *asked;
+    const dp_setup setup = camera->automatic || dp_is_computed(asked) ? dp_setup_guaranteed(asked) : *asked;
     judge_in(n, &setup, v);
 }
 

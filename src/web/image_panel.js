@@ -15,7 +15,7 @@ export function createImagePanel({ $, make, aside, setup, camera, take, otherWay
     const canvas = $("#image canvas"), context = canvas.getContext("2d"), holds = $("#holds");
     const option = (value, text) => make("option", { value }, text);
     holds.append(...HOLDS.map(([value, text]) => option(value, text)), ...packings.map((name) => option(`--packing ${name}`, `packed: ${name}`)));
-    let file = null, files = 0, facts = null, plain = null, at = [0, 0], asked = [], shown = [];
+    let file = null, files = 0, facts = null, bare = null, at = [0, 0], asked = [], shown = [];
 
     // Where nothing is said, the command looks whether they can be lengths alone; a camera says that they are not.
     function words() {
@@ -30,7 +30,7 @@ export function createImagePanel({ $, make, aside, setup, camera, take, otherWay
 
     // Set-up A's mapping, or the other way round where the image shows that.
     function direction() {
-        const mapping = new Map(setup()).get("mapping"), turned = plain?.direction && /reversed/.test(mapping) !== plain.reversed;
+        const mapping = new Map(setup()).get("mapping"), turned = bare?.direction && /reversed/.test(mapping) !== bare.reversed;
         return mapping === undefined ? [] : ["-m", (turned && otherWay[mapping]) || mapping];
     }
 
@@ -104,7 +104,7 @@ export function createImagePanel({ $, make, aside, setup, camera, take, otherWay
         }
         const first = facts === null;
         facts = JSON.parse(answer.out);
-        plain ??= facts; // of no words: what the samples show by themselves
+        bare ??= facts; // of no words: what the samples show by themselves
         if (first) at = [facts.width >> 1, facts.height >> 1];
         if (first && words().join("\0") !== said.join("\0")) return look(words()); // now that it is known to be window depth
         showFacts();
@@ -118,7 +118,7 @@ export function createImagePanel({ $, make, aside, setup, camera, take, otherWay
     }
 
     function open(chosen) {
-        [file, facts, plain] = [chosen, null, null];
+        [file, facts, bare] = [chosen, null, null];
         files++;
         holds.value = "";
         $("#samples").hidden = false;

@@ -212,9 +212,12 @@ TEST(arrays) {
             double z[COUNT], back[COUNT], wide[COUNT];
             uint32_t codes[COUNT];
             assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-            assert_int_equal(dp_batch_init(&code, &setup, DP_TASK_CODE, DP_REAL_DOUBLE, DP_WORD_32, path), DP_OK);
-            assert_int_equal(dp_batch_init(&eye, &setup, DP_TASK_EYE, DP_REAL_DOUBLE, DP_WORD_32, path), DP_OK);
-            assert_int_equal(dp_batch_init(&width, &setup, DP_TASK_WIDTH, DP_REAL_DOUBLE, DP_WORD_32, path), DP_OK);
+            assert_int_equal(dp_batch_init(&code, &setup, DP_TASK_CODE, DP_REAL_DOUBLE, DP_WORD_32, (dp_path)path),
+                             DP_OK);
+            assert_int_equal(dp_batch_init(&eye, &setup, DP_TASK_EYE, DP_REAL_DOUBLE, DP_WORD_32, (dp_path)path),
+                             DP_OK);
+            assert_int_equal(dp_batch_init(&width, &setup, DP_TASK_WIDTH, DP_REAL_DOUBLE, DP_WORD_32, (dp_path)path),
+                             DP_OK);
             for (int k = 0; k < COUNT; k++)
                 z[k] = rng_uniform(&r, spec.znear, isinf(spec.zfar) ? 1e3 * spec.znear : spec.zfar);
             dp_batch_run(&code, z, codes, COUNT);
