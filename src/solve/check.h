@@ -3,8 +3,8 @@
  * @file check.h  Requirements judged: a verdict each, found with the cheapest analysis that can decide.
  *
  *     separation  the largest dp_separation() at the depths asked about, of slanted surfaces where the camera says
- *                 what draws them. Models float and auto judge alike: the lattice first, which passes nothing, but no
- *                 model's separation is below it, so that it refuses what they refuse; then the guarantee.
+ *                 what draws them. Models float and auto judge alike, by the guarantee; with auto the lattice comes
+ *                 first, which passes nothing: no model's separation is below it, so all refuse what it refuses.
  *
  *     error       dp_worst_over(), or the error at a single depth; model auto: in the model staged, or of the shader
  *

@@ -237,7 +237,7 @@ TEST(the_quick_model_first) {
         {"float", "at = 100; separation = 0.001;", CHECK_GUARANTEE, false},
         {"float", "at = 100; separation = 0.0062;", CHECK_GUARANTEE, false},
         {"float", "at = 100; separation = 0.1;", CHECK_GUARANTEE, true},
-        {"auto", "at = 100; separation = 0.004;", CHECK_LATTICE, false}, /* the lattice alone has 0.006 */
+        {"auto", "at = 100; separation = 0.004;", CHECK_LATTICE, false},    /* the lattice alone has 0.006 */
         {"auto", "at = 100; separation = 0.0062;", CHECK_GUARANTEE, false}, /* 0.0066 with the arithmetic */
         {"auto", "at = 100; separation = 0.1;", CHECK_GUARANTEE, true},
         {"auto", "at = 100; error = 1e-9;", CHECK_STAGED, false},
