@@ -6,6 +6,7 @@ import { join } from "node:path";
 import { crc32, deflateSync } from "node:zlib";
 import { axe, close, open, settled } from "./browser.mjs";
 import { native } from "./native.mjs";
+import { plain } from "./plain.mjs";
 import { demand, test } from "./tap.mjs";
 
 const WIDTH = 37, HEIGHT = 23;
@@ -229,7 +230,7 @@ async function refused() {
         ["line.npy", npy("<f4", new Float32Array(9), "9,")], ["zero.npy", npy("<f4", new Float32Array(0), "0, 0")],
     ]) {
         const now = await choose(page, put(name, bytes));
-        const [{ err }] = await native([["texture", join(folder, name)]]), own = says ?? err.trim().split(": ").slice(2).join(": "); // by the program
+        const [{ err }] = await native([["texture", join(folder, name)]]), own = says ?? plain(err.trim().split(": ").slice(2).join(": ")); // by the program
         demand(now.refused.startsWith(`${name}: `) && now.refused.includes(own) && own !== "" && !now.seen, `${name}: ${JSON.stringify(now)}, not ${own}`);
     }
     await axeFindsNothing(page);
