@@ -45,6 +45,8 @@ double dp_curve_eye(const dp_setup *setup, dp_point p) {
     const double n = setup->spec.znear;
     const double f = setup->spec.zfar;
     const shares s = shares_of(setup, p);
+    if (setup->ranged && (s.near == 0.0 || s.far == 0.0)) /* what lies beyond an end is that plane */
+        return s.far == 0.0 ? n : f;
     if (setup->curve == DP_CURVE_PERSPECTIVE)
         return (isinf(f) ? n : n * f) * s.whole / divisor(setup, s);
     if (setup->spans_zero)

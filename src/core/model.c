@@ -41,6 +41,8 @@ dp_status dp_model_choose(const dp_setup *setup, const double *z, size_t count, 
     for (size_t i = 0; i < count; i++) {
         const double whole = dp_separation(&model[fullest], z[i]);
         for (int m = 0; m < fullest; m++) {
+            if (!has[m]) /* no viewport that moves depth has staged */
+                continue;
             const double share = missing_share(dp_separation(&model[m], z[i]), rounding_of(&setup->spec, z[i]), whole);
             if (share > choice.share[m]) {
                 choice.share[m] = share;
@@ -49,7 +51,7 @@ dp_status dp_model_choose(const dp_setup *setup, const double *z, size_t count, 
         }
     }
     int chosen = DP_MODEL_EXACT;
-    while (chosen < fullest && choice.share[chosen] > tolerance)
+    while (chosen < fullest && !(has[chosen] && choice.share[chosen] <= tolerance))
         chosen++;
     choice.model = (dp_model)chosen;
     *out = choice;

@@ -287,7 +287,7 @@ int dp_separation_within(const dp_setup *outer, const dp_setup *inner, double lo
     return is_within(&s, limit);
 }
 
-/* What dp_separation_over() asks last, with the limit. */
+/* Whether dp_separation_over() would find that limit kept, without the worst depth; 0 where that is not sure. */
 int dp_separation_soon(const dp_setup *setup, double lo, double hi, double limit) {
     dp_separation_worst worst = {.lo = lo, .hi = hi, .z = hi};
     search s = {.setup = setup,

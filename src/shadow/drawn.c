@@ -172,7 +172,7 @@ void shadow_scene_stand(shadow_drawing *d, const shadow_scene *scene, const shad
     d->within = 0.5 * constant->window * kappa * (sun ? 1.0 : lo * lo / (1.0 + constant->window * kappa * lo));
 }
 
-/* What an engine's numbers give where receivers are at that depth. */
+/* The bias that an engine's numbers give receivers at that depth. */
 static shadow_given given_at(const shadow_drawing *d, double z) {
     shadow_light at = *d->light;
     at.receiver_lo = at.receiver_hi = z;

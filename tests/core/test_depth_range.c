@@ -197,7 +197,7 @@ TEST(refusals) {
 
 /* ---- Arrays ------------------------------------------------------------------------------------------------------ */
 
-/* What arrays get is what one depth or code gets. */
+/* An array gets what one depth or code gets. */
 TEST(arrays) {
     enum { COUNT = 300 };
     rng r = rng_make("moved arrays");
@@ -230,6 +230,86 @@ TEST(arrays) {
                       "%s: %.17g is stored as %u, read as %.17g", views[i].name, z[k], codes[k], back[k]);
         }
     tally_end(&t);
+}
+
+/* Window depths of no code: what lies beyond an end is that plane, and each lies in its cell. */
+TEST(windows) {
+    enum { COUNT = 200 };
+    rng r = rng_make("moved windows");
+    tally t = {.name = "window depths in depth ranges"};
+    for (int i = 0; i < VIEWS; i++)
+        for (int real = 0; real < 2; real++) {
+            const dp_spec spec = spec_of(&views[i], real ? oracle_float(8, 23, 127) : oracle_unorm(24));
+            const double *ends = spec.depth_range;
+            const bool reversed = (views[i].mapping == DP_MAPPING_REVERSED) != (ends[1] < ends[0]);
+            double d[COUNT], eye[COUNT], lo[COUNT], hi[COUNT];
+            dp_setup setup;
+            assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+            for (int k = 0; k < COUNT; k++)
+                d[k] = k % 2 ? rng_uniform(&r, 0, 1) : rng_uniform(&r, ends[0], ends[1]);
+            assert_int_equal(dp_batch_windows(&setup, DP_REAL_DOUBLE, d, eye, lo, hi, COUNT), DP_OK);
+            for (int k = 0; k < COUNT; k++) {
+                const bool above = d[k] > fmax(ends[0], ends[1]) + 0x1p-20,
+                           below = d[k] < fmin(ends[0], ends[1]) - 0x1p-20;
+                TALLY(&t, lo[k] <= eye[k] && eye[k] <= hi[k], "%s: %.17g in %.17g to %.17g", views[i].name, eye[k],
+                      lo[k], hi[k]);
+                if (above || below)
+                    TALLY(&t, eye[k] == (above == reversed ? spec.znear : spec.zfar), "%s: %.17g beyond an end: %.17g",
+                          views[i].name, d[k], eye[k]);
+            }
+        }
+    tally_end(&t);
+}
+
+/* ---- Over a range of eye depths ---------------------------------------------------------------------------------- */
+
+/* Of a float camera exact is enough or float, but never staged, which none has. */
+static void check_choice(const dp_setup *setup, const view *v, const double z[2], tally *t) {
+    for (int i = 0; i < 2; i++) {
+        dp_choice choice;
+        assert_int_equal(dp_model_choose(setup, z, 2, i == 0 ? 1e9 : 0.0, &choice), DP_OK);
+        TALLY(t,
+              isnan(choice.share[DP_MODEL_STAGED]) && choice.share[DP_MODEL_FLOAT] == 0.0 &&
+                  choice.model == (i == 0 || choice.share[DP_MODEL_EXACT] == 0.0 ? DP_MODEL_EXACT : DP_MODEL_FLOAT),
+              "%s: model %d", v->name, (int)choice.model);
+    }
+}
+
+TEST(over_depths) {
+    enum { SEEN = 100 };
+    rng r = rng_make("moved over depths");
+    tally t = {.name = "worst cases in depth ranges"}, chosen = {.name = "models of depth ranges"};
+    for (int i = 0; i < 20 * VIEWS; i++) {
+        const view *v = &views[i % VIEWS];
+        dp_spec spec = spec_of(v, i % 3 ? oracle_unorm(16) : oracle_float(8, 23, 127));
+        const double end = isinf(v->zfar) ? 1e4 * v->znear : v->zfar;
+        const double z[2] = {rng_uniform(&r, v->znear, end), rng_uniform(&r, v->znear, end)};
+        const double lo = fmin(z[0], z[1]), hi = fmax(z[0], z[1]);
+        for (int computed = 0; computed < 2; computed++) {
+            dp_setup setup;
+            dp_worst worst;
+            dp_separation_worst far;
+            spec.model = computed ? DP_MODEL_FLOAT : DP_MODEL_EXACT;
+            assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+            assert_int_equal(dp_worst_over(&setup, lo, hi, &worst), DP_OK);
+            assert_int_equal(dp_separation_over(&setup, lo, hi, INFINITY, &far), DP_OK);
+            for (int k = 0; k < SEEN; k++) {
+                const double at = rng_uniform(&r, lo, hi), by = fmin(at * (1 + 1e-4), hi);
+                const double error = fabs(dp_stored(&setup, dp_code(&setup, at)) - at);
+                double run;
+                TALLY(&t, computed || error <= worst.error * (1 + 1e-12), "%s: error %g, worst %g", v->name, error,
+                      worst.error);
+                TALLY(&t, dp_separation(&setup, at) <= far.bound, "%s: separation %g, worst %g", v->name,
+                      dp_separation(&setup, at), far.bound);
+                if (at <= by && dp_separation_runs(&setup, &at, &by, &run, 1) == DP_OK)
+                    TALLY(&t, dp_separation(&setup, at) <= run && dp_separation(&setup, by) <= run,
+                          "%s: separation in a run", v->name);
+            }
+            check_choice(&setup, v, z, &chosen);
+        }
+    }
+    tally_end(&t);
+    tally_end(&chosen);
 }
 
 /* ---- The pipeline ------------------------------------------------------------------------------------------------ */

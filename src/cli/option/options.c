@@ -118,7 +118,7 @@ static const option_row *row_of_value(const known *k, int value, const command_r
     return NULL;
 }
 
-/* What a command says of a word that is no option of any; null: nothing. */
+/* The sentence that a command has for a word that is no option of any; null: none. */
 static const char *said_of(const command_word *words, const char *given) {
     const size_t length = strlen(given);
     for (; words != NULL && words->names != NULL; words++)

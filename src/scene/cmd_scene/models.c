@@ -40,7 +40,7 @@ static void count(const scene *s, const dp_setup *setup, scene_simpler *m) {
     }
 }
 
-/* What disturbs a clock makes a turn slower alone. */
+/* A disturbed clock makes a turn slower, never faster: the least counts. */
 static void compare(const scene *s, const dp_setup *setup, scene_simpler *m) {
     enum { TURNS = 5 };
     m->seconds = (double)NAN;
