@@ -108,6 +108,9 @@ check "what is otherwise in WebAssembly stands in src/web/page.h alone" empty we
 check "files are opened to be read in src/system/input.c alone" empty read_elsewhere
 check "GSL is not in the library" empty includes gsl/ include src/core
 
+check "a degree is DP_DEGREE of core/elementary.h alone" empty \
+    lines -rnE --include='*.[ch]' 'M_PI\)? */ *\(?180|180(\.0)? */ *M_PI|/ *180\.0|57\.29|0\.0174' src
+
 # The functions of libm that have one answer; for the others there is core/elementary.h.
 exact='(sqrt|fabs|floor|ceil|trunc|rint|nearbyint|l?lrint|l?l?round|fma|fmin|fmax|fmod|remainder|modf|frexp|ldexp)f?'
 exact="$exact|(scalbn|ilogb|logb|nextafter|copysign)f?"

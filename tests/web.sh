@@ -70,6 +70,26 @@ controls() {
 }
 check "each control of the page is an option of its command" empty controls
 
+# A local of an imported name is taken for it elsewhere in its scope.
+hidden() {
+    node -e '
+        const { readFileSync } = require("fs");
+        let count = 0;
+        for (const path of process.argv.slice(1)) {
+            const text = readFileSync(path, "utf8").replaceAll(/\/\/.*$/gm, "");
+            for (const [, list] of text.matchAll(/^import \{([^}]*)\}/gm))
+                for (const name of list.split(",").map((part) => part.trim().split(" ").at(-1)).filter(Boolean)) {
+                    const own = name.replace("$", "\\$"), end = "(?![\\w$])";
+                    count++;
+                    const local = new RegExp(`(?:const|let|var)\\s+(?:[^;\\n]*,\\s*)?${own}${end}\\s*(?:=[^=>]|;)|(?:const|let|var)\\s*[[{](?:[^=\\n]*[\\s,{[])?${own}${end}[^=\\n]*[\\]}]\\s*=`);
+                    const found = local.exec(text.replaceAll(/^import [^;]*;/gm, ""));
+                    if (found !== null) console.log(`${path}: ${name}: ${found[0]}`);
+                }
+        }
+        if (count < 40) console.log(`only ${count} imports`);' src/web/*.js src/npm/*.js
+}
+check "no local of a module of the page hides what it imports" empty hidden
+
 flickers() {
     cp src/web/picture.js "$scratch/picture.mjs" && node tests/web/picture.mjs "$scratch/picture.mjs"
 }

@@ -99,7 +99,7 @@ static bool normal_error_at(const method_call *c, size_t i, method_error *error)
     float *const *place = c->out->place;
     const double got[3] = {(double)place[0][i], (double)place[1][i], (double)place[2][i]};
     const double angle = normal_angle(normal, got);
-    *error = (method_error){angle * 180 / M_PI, angle, angle / DP_UNIT};
+    *error = (method_error){angle / DP_DEGREE, angle, angle / DP_UNIT};
     return true;
 }
 

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "core/elementary.h"
 #include "shader/normal.h"
 #include "shader/pack_rg.h"
 
@@ -316,5 +317,5 @@ double pack_reach(const pack_row *row, const uint32_t codes[], bool truncated) {
     reach r = {.most = 0};
     row->decode(row, codes, r.back);
     reaches[row->layout](row, codes, truncated ? 1 : 0.5, &r);
-    return r.most * (180 / M_PI) * DP_OUTWARD;
+    return r.most / DP_DEGREE * DP_OUTWARD;
 }

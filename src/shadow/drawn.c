@@ -109,7 +109,7 @@ bool shadow_scene_random(const shadow_drawing *d, uint64_t *state, shadow_scene 
     *out = (shadow_scene){.area = area_about(d, x, y)};
     out->slant = t->slant_hi * (steep ? 1.0 - 0.1 * share : share);
     out->z = light->kind == SHADOW_SUN ? lo + (most - lo) * draw_uniform(state) : draw_log_uniform(state, lo, most);
-    const double angle = out->slant * M_PI / 180.0;
+    const double angle = out->slant * DP_DEGREE;
     ray_at(d, window, ray);
     across_ray(ray, a, b);
     for (int i = 0; i < 3; i++)
@@ -211,7 +211,7 @@ static looked_up look_up(const shadow_drawing *d, const shadow_scene *scene, con
     if (d->worn.engine != NULL) {
         const shadow_given given = given_at(d, z);
         const double most = given.offset != 0.0 ? given.offset_most / given.offset : 1.0;
-        moved = shadow_given_offset(&given, dp_atan2(sine, cosine) * 180.0 / M_PI) * most;
+        moved = shadow_given_offset(&given, dp_atan2(sine, cosine) / DP_DEGREE) * most;
         window = given.window_most;
     }
     for (int i = 0; i < 3; i++)
@@ -273,7 +273,7 @@ shadow_point shadow_point_at(const shadow_drawing *d, const shadow_scene *scene,
         return none;
     ray_at(d, window, ray);
     const double cosine = inner(scene->plane.normal, ray);
-    if (!(cosine >= dp_cos(light->triangles.slant_hi * M_PI / 180.0)))
+    if (!(cosine >= dp_cos(light->triangles.slant_hi * DP_DEGREE)))
         return none;
     draw_at(&d->camera, window, depth, place);
     const looked_up point = look_up(d, scene, place, fmin(cosine, 1.0));

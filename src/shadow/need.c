@@ -269,7 +269,8 @@ static bool lacks_room(const shadow_light *light, const shadow_bias *set, double
         shadow_gap_at(light, set, light->triangles.slant_hi, &along, &normal);
         return !(z + along + covered * g.depth < light->receiver_lo);
     }
-    /* The change of 1/depth, in parts of the caster's. The point was moved, and is looked up where the plane may be nearer. */
+    /* The change of 1/depth, in parts of the caster's. The point was moved: where it is looked up the plane may be
+     * nearer. */
     const double steep = times(set->factor, steepest_of(light, &g, shadow_lean(light, &g, angle), 1.0)) / z;
     const double left = 1.0 - set->offset / dp_cos(angle);
     back = left > 0.0 ? 1.0 / (left * (1.0 - set->offset)) : (double)INFINITY;

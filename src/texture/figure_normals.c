@@ -47,7 +47,7 @@ static double bound_of(const texture_camera *camera, const double *parameters) {
             if (isfinite(error))
                 worst = fmax(worst, normal_plane_bound(camera, i, j, &plane, error));
         }
-    return worst * 180 / M_PI;
+    return worst / DP_DEGREE;
 }
 
 /* A plane slanted askew: cos 33 cos 53.4 = 1/2. A sphere as large in the image at every depth, and a wall behind it as
@@ -66,7 +66,7 @@ static double drawn_error(const dp_setup *setup, size_t surface, size_t method, 
                         surface == PLANE ? plane : sphere, 0, SIDE, &m))
         return NAN;
     const bool whole = z - radius >= setup->spec.znear && m.sky == 0; /* neither sphere nor wall leaves the view */
-    return (surface == PLANE ? m.inside.p99 : whole ? m.edges.mean : (double)NAN) * 180 / M_PI;
+    return (surface == PLANE ? m.inside.p99 : whole ? m.edges.mean : (double)NAN) / DP_DEGREE;
 }
 
 /* The worst of `count` set-ups. */

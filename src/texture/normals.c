@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/elementary.h"
 #include "shader/packing.h"
 
 typedef struct making {
@@ -25,7 +26,7 @@ static bool pack_rows(void *context, uint32_t row, uint32_t count, const float *
         const double off = isnan(values[0][i]) ? 0 : found && !isnan(values[2][i]) ? (double)values[2][i] : 180;
         double back[3];
         packing_normal(m->out->own + 2 * (first + i), back);
-        const double lost = found ? normal_angle((const double[]){n[0], n[1], -n[2]}, back) * (180 / M_PI) : 0;
+        const double lost = found ? normal_angle((const double[]){n[0], n[1], -n[2]}, back) / DP_DEGREE : 0;
         const double all = off + (lost > pack_stereo()->normal.max ? lost : 0); /* beyond what the channels hold */
         m->out->off[first + i] = (uint16_t)ceil(fmin(all, 180) * FRAME_NORMAL_DEGREE);
     }

@@ -48,10 +48,10 @@ export function buildSetup(index) {
         own[other].value = slide(other, Math.max(stepOf(other, own[option].value) + beside, 0));
         setup.set(other, own[other].value);
     };
-    const plain = { spellcheck: "false", autocomplete: "off" };
+    const verbatim = { spellcheck: "false", autocomplete: "off" };
     const text = (option, label, hint) => {
         const id = `${option}-${letter}`;
-        const input = make("input", { "data-option": option, id, size: 8, placeholder: hint, ...plain });
+        const input = make("input", { "data-option": option, id, size: 8, placeholder: hint, ...verbatim });
         input.addEventListener("input", () => {
             change(option, input.value.trim() || null);
             showSliders(index);
@@ -110,7 +110,7 @@ export function buildSetup(index) {
         fill();
     });
     own.ortho = ortho;
-    const more = make("input", { class: "more", id: `more-${letter}`, placeholder: "--rounding zero", ...plain });
+    const more = make("input", { class: "more", id: `more-${letter}`, placeholder: "--rounding zero", ...verbatim });
     more.addEventListener("change", () => {
         try {
             const base = new Map([...state.setups[index]].filter(([name]) => name in own));

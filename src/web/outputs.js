@@ -28,9 +28,9 @@ export const [DARK, NARROW] = ["prefers-color-scheme: dark", "max-width: 40rem"]
 export const theme = () => (page.printing ? "print" : (document.documentElement.dataset.theme ?? (DARK.matches ? "dark" : "light")));
 
 function save(name, text, type) {
-    const link = make("a", { href: URL.createObjectURL(new Blob([text], { type })), download: name });
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+    const anchor = make("a", { href: URL.createObjectURL(new Blob([text], { type })), download: name });
+    anchor.click();
+    setTimeout(() => URL.revokeObjectURL(anchor.href), 1000);
 }
 
 const RUN = { json: ["--json"], csv: ["--csv"] };

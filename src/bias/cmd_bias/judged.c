@@ -68,7 +68,7 @@ bias_pushed bias_pushed_of(const dp_setup *setup, const bias_state *state, const
         p.least = -bias_at(setup, &enough, 0.0, most.z).shift + 0.0; /* no -0 */
     if (t->width > 0) {
         const double pixel = 2.0 * dp_half_tangent(t->fov_y) / t->height * most.z;
-        p.degrees = dp_atan(fabs(most.shift) / pixel) * 180.0 / M_PI;
+        p.degrees = dp_atan(fabs(most.shift) / pixel) / DP_DEGREE;
     }
     return p;
 }

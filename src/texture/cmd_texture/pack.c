@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/bits.h"
+#include "core/elementary.h"
 #include "report/message.h"
 #include "report/number.h"
 #include "texture/cmd_texture/request.h"
@@ -107,7 +108,7 @@ static void pack_normal(packing_on *on, size_t pixel, const float *found, uint8_
     if (on->from != on->p)
         row->encode(row, given, codes);
     row->decode(row, codes, back);
-    const double off = normal_angle(given, back) * (180 / M_PI);
+    const double off = normal_angle(given, back) / DP_DEGREE;
     on->lost += off > row->normal.max;
     on->worst = fmax(on->worst, off);
     for (int k = 0; k < row->channels; k++)

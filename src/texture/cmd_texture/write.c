@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/append.h"
+#include "core/elementary.h"
 #include "core/outward.h"
 #include "report/message.h"
 #include "report/number.h"
@@ -147,7 +148,7 @@ static bool rounding_of_product(const texture_request *o, const texture_source *
                                                 [FRAME_LINEAR01] = 1,
                                                 [FRAME_RAW] = 1,
                                                 [FRAME_POSITION] = 1.7320508075688774,
-                                                [FRAME_NORMAL] = 1.74 * 57.29577951308233,
+                                                [FRAME_NORMAL] = 1.74 / DP_DEGREE,
                                                 [FRAME_EFFECT] = 255};
     frame_product plain = *made;
     frame_summary sum;
