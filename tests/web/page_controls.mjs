@@ -205,7 +205,7 @@ async function worldIsFixed() {
     const other = await open({ fragment: new URL(page.url()).hash.slice(1) });
     demand(await other.inputValue("#distance-text") === "3.16km" && await other.inputValue("#gap-text") === "5mm", "not in the link");
     await close(other);
-    await page.locator("#distance").press("ArrowRight");
+    await updated(page, () => page.locator("#distance").press("ArrowRight"));
     demand(await page.inputValue("#distance-text") === "3.21km", `by a key: ${await values()}`);
     await put(page, "#a [data-option=unit]", "");
     await put(page, "#distance", 500);

@@ -120,9 +120,11 @@ static void say_everywhere(page *p, const scene *s) {
               asked(p, s, s->within).text, also);
 }
 
-/* " (0.012 ms)", with --full. */
+/* " (0.012 ms)" with --full, else nothing. */
 static const char *took(const scene *s, const scene_simpler *m, char out[TOOK_SIZE]) {
-    snprintf(out, TOOK_SIZE, s->o.out.full ? " (%s ms)" : "", number_of(1e3 * m->seconds, 2).text);
+    out[0] = '\0';
+    if (s->o.out.full)
+        snprintf(out, TOOK_SIZE, " (%s ms)", number_of(1e3 * m->seconds, 2).text);
     return out;
 }
 
