@@ -30,7 +30,7 @@ src/solve         | depthprec core system bias camera quantity raster world solv
 src/model         | core system model
 src/scene         | depthprec core system quantity raster world model bias camera solve scene
 src/report        | depthprec core system report
-src/draw          | core draw
+src/draw          | core system draw
 src/plot          | depthprec core zfight quantity raster shader method draw plot
 '
 computed=$(echo "$layers" | sed -n 's,^src/\([a-z]*\) .*,\1,p' | grep -vE '^(windows|report|draw|plot)$')

@@ -138,6 +138,17 @@ check "auto chooses the model of each curve" sh -c '
         jq -r ".panels[].series[].name" "$2" | sort -u | tr "\n" ";" | grep -qx "unorm16 d3d, exact;unorm16 log, exact;unorm24 d3d, float;unorm24 d3d, float, census;unorm24 d3d, float, lattice;unorm24 log, staged;"
     ' - "$DEPTHPREC" "$scratch/csv"
 
+# A library that cannot be opened: who draws nothing does without, and is not kept waiting for it.
+mkdir "$scratch/no-cairo"
+: >"$scratch/no-cairo/libcairo.so.2"
+without_cairo() { LD_LIBRARY_PATH=$scratch/no-cairo "$@"; }
+check "a table needs no cairo" without_cairo "$DEPTHPREC" table -o "$scratch/table"
+check "a figure's numbers need none" without_cairo "$DEPTHPREC" plot interval --csv -o "$scratch/table"
+for type in svg pdf png; do
+    check "$type needs cairo, and says so" without_cairo refuses 2 "a figure needs a library that is not there, libcairo.so.2: Debian's package libcairo2 has it" \
+        interval -o "$scratch/drawn.$type"
+done
+
 # A failed run leaves the old figure as it was.
 echo old >"$scratch/kept.svg"
 "$DEPTHPREC" plot distribution -F unorm2,unorm3,unorm4 -m d3d,gl,reversed -o "$scratch/kept.svg" 2>"$scratch/log"

@@ -2,9 +2,9 @@
 /**
  * @file canvas.h  A drawing surface in px, the origin at the top left, that ends as the bytes of an SVG, PDF or PNG.
  *
- * canvas.c is the only file that includes cairo. Coordinates are clamped to CANVAS_REACH: cairo's fixed point holds
- * 24.8 bits and turns what lies beyond it, and infinities, into nonsense without a word. Clip to the frame first; the
- * clamp is only the last guard. The bytes depend on nothing but what was drawn and noted (and on SOURCE_DATE_EPOCH).
+ * canvas.c is the only file that includes cairo, which it opens for the first figure. Coordinates are clamped to
+ * CANVAS_REACH: cairo's fixed point holds 24.8 bits and turns what lies beyond it, and infinities, into nonsense without
+ * a word. Clip to the frame first; the clamp is only the last guard. The bytes depend on nothing but what was drawn and noted (and on SOURCE_DATE_EPOCH).
  */
 #ifndef DRAW_CANVAS_H
 #define DRAW_CANVAS_H
@@ -62,10 +62,10 @@ typedef struct canvas_bytes {
 /** The format that a file name's ending names (letter case ignored); CANVAS_FORMAT_COUNT when none does. */
 canvas_format canvas_format_of(const char *path);
 
-/** Whether this program draws a format: one without cairo draws SVG alone. */
-bool canvas_writes(canvas_format format);
+/** Null where this program draws a format, or why not: one that was built without cairo draws SVG alone. */
+const char *canvas_lacks(canvas_format format);
 
-/** A surface of whole px in each direction, 1 to 16384. @return null when out of memory */
+/** A surface of whole px in each direction, 1 to 16384. @return null when out of memory, or canvas_lacks() it */
 canvas *canvas_new(canvas_format format, int width, int height, const notes *words);
 
 /** Frees everything but the bytes. @return false when cairo failed or memory ran out, whatever the bytes are then */

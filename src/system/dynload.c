@@ -11,7 +11,7 @@ bool dynload_open(const library *l, dynload_function *functions[], char error[DY
     for (size_t i = 0; handle == NULL && l->files[i] != NULL; i++)
         handle = dlopen(l->files[i], RTLD_NOW | RTLD_LOCAL);
     if (handle == NULL) {
-        snprintf(error, DYNLOAD_ERROR_SIZE, "%s is read by a library that is not there, %s: Debian's package %s has it",
+        snprintf(error, DYNLOAD_ERROR_SIZE, "%s needs a library that is not there, %s: Debian's package %s has it",
                  l->kind, l->files[0], l->package);
         return false;
     }

@@ -7,7 +7,7 @@
 #include <stddef.h>
 
 typedef struct library {
-    const char *kind;           /**< of file: "EXR" */
+    const char *kind;           /**< of what needs it: "EXR" */
     const char *files[3];       /**< one after the other is tried, up to null */
     const char *package;        /**< Debian's, that has it */
     const char *const *symbols; /**< up to null */

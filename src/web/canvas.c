@@ -26,8 +26,10 @@ struct canvas {
     int clips;
 };
 
-bool canvas_writes(canvas_format format) {
-    return format == CANVAS_SVG;
+const char *canvas_lacks(canvas_format format) {
+    return format == CANVAS_SVG
+               ? NULL
+               : "must be svg, because this program was built without cairo: rsvg-convert makes others of it";
 }
 
 canvas *canvas_new(canvas_format format, int width, int height, const notes *words) {

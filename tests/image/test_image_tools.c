@@ -613,7 +613,7 @@ TEST(missing_libraries) {
     char error[DYNLOAD_ERROR_SIZE];
     dynload_function *found[2];
     assert_false(dynload_open(&absent, found, error));
-    assert_string_equal(error, "EXR is read by a library that is not there, libnothing-of-that-name.so.7: Debian's "
+    assert_string_equal(error, "EXR needs a library that is not there, libnothing-of-that-name.so.7: Debian's "
                                "package libnothing7 has it");
     assert_false(dynload_open(&present, found, error));
     assert_string_equal(error, "EXR: libnothing-of-that-name.so.7 has no no_such_function_of_it");

@@ -36,10 +36,9 @@ int figure_file_type(const asked_line *line, const figure_asked *f, const char *
         return option_error(name, "must end in .svg, .pdf or .png, or --type say which, got '%s'", path);
     if (*out == CANVAS_FORMAT_COUNT)
         *out = (canvas_format)f->type;
-    if (!canvas_writes(*out))
-        return option_error(typed ? "type" : name,
-                            "must be svg, because this program was built without cairo: rsvg-convert makes %s of it",
-                            option_word("type", *out));
+    const char *lacks = canvas_lacks(*out);
+    if (lacks != NULL)
+        return option_error(typed ? "type" : name, "%s", lacks);
     return EXIT_FINE;
 }
 
