@@ -3,8 +3,9 @@
  * @file canvas.h  A drawing surface in px, the origin at the top left, that ends as the bytes of an SVG, PDF or PNG.
  *
  * canvas.c is the only file that includes cairo, which it opens for the first figure. Coordinates are clamped to
- * CANVAS_REACH: cairo's fixed point holds 24.8 bits and turns what lies beyond it, and infinities, into nonsense without
- * a word. Clip to the frame first; the clamp is only the last guard. The bytes depend on nothing but what was drawn and noted (and on SOURCE_DATE_EPOCH).
+ * CANVAS_REACH: cairo's fixed point holds 24.8 bits and turns what lies beyond it, and infinities, into nonsense
+ * without a word. Clip to the frame first; the clamp is only the last guard. The bytes depend on nothing but what was
+ * drawn and noted (and on SOURCE_DATE_EPOCH).
  */
 #ifndef DRAW_CANVAS_H
 #define DRAW_CANVAS_H
