@@ -66,7 +66,8 @@ bool camera_viewed(camera_said *c, camera_fault *fault) {
     if (!slanted)
         return true;
     if (c->ortho)
-        return camera_fails(fault, c->use.drawn ? "rasterize" : "viewport", "conflicts with @ortho");
+        return camera_fails(fault, c->use.drawn ? "rasterize" : "viewport",
+                            "conflicts with @ortho: what slants lose is known of perspectives alone");
     if (said(c, CAMERA_FOV) && said(c, CAMERA_HFOV))
         return camera_fails(fault, "hfov", "conflicts with @fov");
     if (c->matrix.count > 0 && !c->use.drawn)

@@ -84,9 +84,12 @@ TEST(named) {
                                        {"--filter nearest:1", "no number", 2},
                                        {"--filter mist", "nearest", 2},
                                        {"--filter pcf:3 --kernel 3", "--kernel", 2},
+                                       {"--engine three:-0.005", "--bias and --normal-bias", 2},
+                                       {"--engine three --csv", "text and JSON", 2},
+                                       {"--rasterize --csv", "text and JSON", 2},
                                        {"--check", "--engine", 2}};
     CHECK_REFUSED("shadow --light-box 10x10x10", rows);
     check_says(1, "not enough", "shadow --light-box 10x10x10 --engine three --check");
     check_says(0, "enough up to", "shadow --light-box 10x10x10 --engine three --shadowBias -0.01 --check");
-    check_says(1, "", "shadow --light-box 10x10x10 --engine three --check --csv");
+    check_says(1, "", "shadow --light-box 10x10x10 --engine three --check --json");
 }

@@ -270,6 +270,50 @@ TEST(told_numbers_are_enough) {
     assert_true(enough.cases >= 30);
 }
 
+/* An edge as the light sees it, between two places of a disc of radius 1: how far its points, each put into the
+ * paraboloid by itself, lie beside the line between its ends. */
+static double rise_of(const double ends[2][2]) {
+    const double dx = ends[1][0] - ends[0][0], dy = ends[1][1] - ends[0][1], length = hypot(dx, dy);
+    double from[2][3], most = 0.0;
+    for (int k = 0; k < 2; k++) { /* q = (x, y)/(|P| + z) has P = (2 q, 1 - q q)/(1 + q q) */
+        const double square = ends[k][0] * ends[k][0] + ends[k][1] * ends[k][1];
+        from[k][0] = 2.0 * ends[k][0] / (1.0 + square);
+        from[k][1] = 2.0 * ends[k][1] / (1.0 + square);
+        from[k][2] = (1.0 - square) / (1.0 + square);
+    }
+    for (int i = 0; i <= 1000; i++) {
+        double p[3];
+        for (int a = 0; a < 3; a++)
+            p[a] = from[0][a] + (from[1][a] - from[0][a]) * i / 1000.0;
+        const double sum = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) + p[2];
+        most = fmax(most, fabs((p[0] / sum - ends[0][0]) * dy - (p[1] / sum - ends[0][1]) * dx) / length);
+    }
+    return most;
+}
+
+/* Of two paraboloids it is said why no bias follows: how far an edge of N texels is drawn off its place. */
+TEST(paraboloids) {
+    rng r = rng_make("paraboloids");
+    tally t = {.name = "N^2/(4 SIZE)"};
+    double most = 0.0;
+    check_says(2, "N^2/(4 SIZE) of them off", "shadow --dual-paraboloid -n 0.1 -f 25");
+    check_says(2, "--point", "shadow --point --paraboloid");
+    for (int i = 0; i < 2000; i++) {
+        const double size = rng_log(&r, 256, 4096), texels = size * rng_uniform(&r, 0.01, 0.125),
+                     turn = 2.0 * texels / size;
+        const double at = i % 2 ? 1.0 : rng_uniform(&r, 0.0, 1.0), u = rng_uniform(&r, -3.0, 3.0);
+        const double v = i % 2 ? u + 2.0 * asin(0.5 * turn) : rng_uniform(&r, -3.0, 3.0);
+        const double ends[2][2] = {
+            {at * cos(u), at * sin(u)},
+            {i % 2 ? cos(v) : at * cos(u) + turn * cos(v), i % 2 ? sin(v) : at * sin(u) + turn * sin(v)}};
+        const double share = rise_of(ends) * size / 2.0 / (texels * texels / (4.0 * size));
+        TALLY(&t, share < 1.01, "an edge of %g of %g texels: %g", texels, size, share);
+        most = fmax(most, share);
+    }
+    TALLY(&t, most > 0.99, "at most %g", most);
+    tally_end(&t);
+}
+
 /* The numbers of the thread on a spot light's D16 map of 512 texels. */
 TEST(by_hand) {
     json_t *root = json_printed(0, "%s", given[0].line);

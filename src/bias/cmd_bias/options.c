@@ -173,9 +173,9 @@ static const option_use uses[] = {
 static const option_rule rules[] = {
     CONFLICTS("remedy", "api units factor clamp slope viewport raster rasterize", ", which are of a bias"),
     NEEDS("check", "units remedy", ": it is a bias that is judged"),
-    CONFLICTS("rasterize", "ortho", ", which draws perspectives"),
     NEEDS("rasterize", "units", ": it is a bias that is drawn"),
     NEEDS("render", "rasterize", NULL),
+    CONFLICTS("csv", "rasterize", ", which text and JSON tell of"),
     {.option = NULL}};
 /* clang-format on */
 

@@ -98,6 +98,8 @@ static int add_engine(asked_line *line, const option_row *row, const char *name,
     shadow_asked *o = group;
     (void)line;
     list_item found;
+    if (strchr(name, ':') != NULL)
+        return option_refuse(row, "takes names alone, got '%s': numbers are those of --bias and --normal-bias", name);
     if (!names_find(row->names, name, NULL, &found))
         return option_unknown(row, name);
     const shadow_engine *engine = found.row;
@@ -191,6 +193,7 @@ static const option_rule shadow_rules[] = {CONFLICTS("spot", "point", NULL),
                                            NEEDS("bias", "engine", NULL),
                                            NEEDS("check", "engine", ": it is its bias that is judged"),
                                            NEEDS("normal-bias", "engine", NULL),
+                                           CONFLICTS("csv", "engine rasterize", ", which text and JSON tell of"),
 
                                            NEEDS("render", "rasterize", NULL),
                                            CONFLICTS("rasterize", "distance", ", which a fragment shader writes"),
@@ -277,7 +280,12 @@ static int complete(void *request) {
     return camera_complete(&o->camera, &(camera_use){.mapped = true});
 }
 
+/* An edge is seen as a great circle, and drawn in the paraboloid, a disc of SIZE texels, as a circle of at least that
+ * radius: over a chord of N texels it rises by N^2/(4 SIZE) of them. */
 static const command_word words[] = {
+    {"paraboloid paraboloids dual-paraboloid dualParaboloid",
+     "paraboloids bend edges, and triangles are drawn with straight ones: at the rim an edge of N texels is about "
+     "N^2/(4 SIZE) of them off, of which no bias follows; --point takes the six faces of a cube"},
     {"matrix",
      "a light's orthographic one is --light-box WxHxD, 2/m00 by 2/m11 by far - near, one in perspective --spot DEG, "
      "twice the arc tangent of 1/m00; of the view it is --near, --far and --fov"},
