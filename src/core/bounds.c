@@ -194,9 +194,15 @@ static void search_staged(const search *s, uint32_t bottom, uint32_t top) {
 static void search_exact(const search *s, uint32_t bottom, uint32_t top) {
     const dp_setup *setup = s->setup;
     const dp_format *format = &setup->spec.format;
-    /* Pieces from the coarsest step to the finest, so that most of the fine ones are dismissed at sight. */
+    /* Pieces from the coarsest step to the finest, so that most of the fine ones are dismissed at sight; in a reversed
+       perspective cells are widest halfway to far, with which it begins. */
     const int shift = format->kind == DP_FORMAT_UNORM ? 32 : format->mantissa_bits;
-    for (int64_t piece = (int64_t)((uint64_t)top >> shift); piece >= (int64_t)((uint64_t)bottom >> shift); piece--) {
+    const double widest = fmax(s->worst->lo, fmin(s->worst->hi, 0.5 * setup->spec.zfar));
+    const uint32_t begin_at = setup->reversed && setup->curve == DP_CURVE_PERSPECTIVE ? dp_code(setup, widest) : top;
+    const int64_t lowest = (int64_t)((uint64_t)bottom >> shift), highest = (int64_t)((uint64_t)top >> shift);
+    const int64_t start = (int64_t)((uint64_t)begin_at >> shift);
+    for (int64_t i = 0; i <= highest - lowest; i++) {
+        const int64_t piece = start - i >= lowest ? start - i : lowest + i;
         const uint64_t begin = (uint64_t)piece << shift;
         const uint64_t end = (uint64_t)(piece + 1) << shift;
         const uint32_t low = begin > bottom ? (uint32_t)begin : bottom;

@@ -17,13 +17,7 @@ static double of_ndc(double x) {
 }
 
 static judge_depth of_point(const dp_setup *s, dp_point p, double ndc) {
-    return (judge_depth){.z = dp_curve_eye(s, p),
-                         .num = p.num,
-                         .comp = p.comp,
-                         .den = p.den,
-                         .ndc = ndc,
-                         .behind = dp_curve_gap(s, p, s->spec.znear),
-                         .left = isinf(s->spec.zfar) ? (double)INFINITY : -dp_curve_gap(s, p, s->spec.zfar)};
+    return (judge_depth){.z = dp_curve_eye(s, p), .num = p.num, .comp = p.comp, .den = p.den, .ndc = ndc};
 }
 
 static judge_depth depth_of_window(const dp_setup *s, double x) {
@@ -44,7 +38,21 @@ static judge_depth depth_of_code(const dp_setup *s, double x) {
 }
 
 judge_depth judge_depth_of(const dp_setup *s, double z) {
-    return (judge_depth){.z = z, .behind = z - s->spec.znear, .left = s->spec.zfar - z};
+    (void)s;
+    return (judge_depth){.z = z};
+}
+
+/* Exact gaps take ten times as long as all the rest: few functions need them. */
+static double gap(const dp_setup *s, const judge_depth *at, double z) {
+    return at->den > 0 ? dp_curve_gap(s, (dp_point){at->num, at->comp, at->den}, z) : at->z - z;
+}
+
+double judge_behind(const dp_setup *s, const judge_depth *at) {
+    return gap(s, at, s->spec.znear);
+}
+
+double judge_left(const dp_setup *s, const judge_depth *at) {
+    return isinf(s->spec.zfar) ? (double)INFINITY : -gap(s, at, s->spec.zfar);
 }
 
 static judge_depth depth_of_view(const dp_setup *s, double x) {
@@ -80,7 +88,7 @@ static double over_far(const dp_setup *s, const judge_depth *at) {
 }
 
 static double from_near(const dp_setup *s, const judge_depth *at) {
-    return isinf(s->spec.zfar) ? (double)NAN : at->behind / (s->spec.zfar - s->spec.znear);
+    return isinf(s->spec.zfar) ? (double)NAN : judge_behind(s, at) / (s->spec.zfar - s->spec.znear);
 }
 
 static double minus(const dp_setup *s, double v) {
@@ -115,7 +123,7 @@ static double reciprocal(const dp_setup *s, const judge_depth *at) {
 static double window(const dp_setup *s, const judge_depth *at) {
     if (at->den > 0)
         return at->num / at->den;
-    const double way = s->reversed ? at->left : at->behind;
+    const double way = s->reversed ? judge_left(s, at) : judge_behind(s, at);
     if (s->curve == DP_CURVE_LOG)
         return dp_log1p(s->log_c * (at->z - s->anchor)) / s->kappa;
     if (s->curve == DP_CURVE_LINEAR)
@@ -148,7 +156,7 @@ static double code(const dp_setup *s, const judge_depth *at) {
 /* The depth that the matrix gives where the shader then writes a logarithm. */
 static double of_matrix(const dp_setup *s, const judge_depth *at) {
     const double n = s->spec.znear, f = s->spec.zfar;
-    return s->curve != DP_CURVE_LOG ? (double)NAN : at->behind / at->z * (isinf(f) ? 1 : f / (f - n));
+    return s->curve != DP_CURVE_LOG ? (double)NAN : judge_behind(s, at) / at->z * (isinf(f) ? 1 : f / (f - n));
 }
 
 static double eye_line(double v, double share, bool ortho) {

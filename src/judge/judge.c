@@ -28,7 +28,7 @@ const char *judge_precision_name(judge_precision precision) {
 
 static double value_at(const judge_candidate *c, judge_depth at) {
     if (c->trap != NULL) {
-        const trap_depth depth = {at.z, at.behind, at.left, 1};
+        const trap_depth depth = {at.z, judge_behind(&c->setup, &at), judge_left(&c->setup, &at), 1};
         const bool writes = c->output->window != NULL;
         const double z = (writes ? trap_writes_at : trap_reads_at)(c->trap, &c->setup, &depth);
         if (isnan(z))

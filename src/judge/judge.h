@@ -17,10 +17,9 @@
 
 /** A depth that went in, each number of it without what another would have lost. */
 typedef struct judge_depth {
-    double z;            /**< eye depth: INFINITY, or below 0, at and beyond the far end of 1/z; NaN: none */
-    double num, comp;    /**< window depth, and what is left to 1, */
-    double den, ndc;     /**< as shares of `den`, and NDC depth; den 0: all that is known is z */
-    double behind, left; /**< z - near, far - z */
+    double z;         /**< eye depth: INFINITY, or below 0, at and beyond the far end of 1/z; NaN: none */
+    double num, comp; /**< window depth, and what is left to 1, */
+    double den, ndc;  /**< as shares of `den`, and NDC depth; den 0: all that is known is z */
 } judge_depth;
 
 /** An input of a function. */
@@ -61,6 +60,10 @@ const judge_output *judge_output_get(size_t index);
 
 /** The depth that an eye depth is. */
 judge_depth judge_depth_of(const dp_setup *setup, double z);
+
+/** z - near and far - z, with no digit lost where the window depth is known; far - z is INFINITY where far is. */
+double judge_behind(const dp_setup *setup, const judge_depth *at);
+double judge_left(const dp_setup *setup, const judge_depth *at);
 
 typedef enum judge_verdict {
     JUDGE_RIGHT,  /**< for a set-up that was asked about, */
