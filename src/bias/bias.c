@@ -15,52 +15,52 @@ static const bias_api rows[] = {
      "DepthBias is an integer; all is computed in binary32, at the vertices, after clipping",
      "Direct3D 11 programming guide, output merger stage, Depth Bias",
      BIAS_CODE, BIAS_EXPONENT, BIAS_EXPONENT_N, true, true, true, false, "D3D11_RASTERIZER_DESC.DepthBias = U",
-     ", SlopeScaledDepthBias = F", UNSCALED, "hlsl", NULL, NULL},
+     ", SlopeScaledDepthBias = F", UNSCALED, "hlsl", NULL, NULL, true},
     {"d3d12", "direct3d12", "DepthBias is an integer; the rule of d3d11",
      "Direct3D 12, D3D12_RASTERIZER_DESC, which refers to Depth Bias of Direct3D 11",
      BIAS_CODE, BIAS_EXPONENT, BIAS_EXPONENT_N, true, true, true, false, "D3D12_RASTERIZER_DESC.DepthBias = U",
-     ", SlopeScaledDepthBias = F", UNSCALED, "hlsl", NULL, NULL},
+     ", SlopeScaledDepthBias = F", UNSCALED, "hlsl", NULL, NULL, true},
     {"webgpu", "wgpu", "depthBias is an integer; depth24plus may follow either rule (gpuweb/gpuweb#6350)",
      "WebGPU, biased fragment depth; gpuweb/cts depth_bias.spec.ts",
      BIAS_CODE, BIAS_EXPONENT, BIAS_EXPONENT_N, true, true, false, false, "depthBias: U", ", depthBiasSlopeScale: F",
-     UNSCALED, "wgsl", NULL, NULL},
+     UNSCALED, "wgsl", NULL, NULL, true},
     {"metal", "mtl",
      "depthBias is a float; for integer buffers r is the smallest positive value that the buffer holds",
      "Metal, MTLRenderCommandEncoder, setDepthBias(_:slopeScale:clamp:)",
      BIAS_CODE, BIAS_EXPONENT, BIAS_EXPONENT_N, false, true, false, false,
-     "setDepthBias(U, slopeScale: F, clamp: 0)", "", UNSCALED, "msl", NULL, NULL},
+     "setDepthBias(U, slopeScale: F, clamp: 0)", "", UNSCALED, "msl", NULL, NULL, false},
     {"vulkan", "vk", "for integer buffers r is the implementation's choice, at most 2 x 2^-N",
      "Vulkan specification, Depth Bias Computation",
      BIAS_BOUND, BIAS_EXPONENT, BIAS_EXPONENT_OPEN, false, true, false, true, "depthBiasConstantFactor = U",
-     ", depthBiasSlopeFactor = F", UNSCALED, "glsl", NULL, NULL},
+     ", depthBiasSlopeFactor = F", UNSCALED, "glsl", NULL, NULL, false},
     {"vulkan-exact", "vk-exact",
      "VK_EXT_depth_bias_control with depthBiasExact: r = 2^-N, less than the distance of two codes",
      "Vulkan specification, Depth Bias Computation; VK_EXT_depth_bias_control",
      BIAS_POWER, BIAS_EXPONENT, BIAS_EXPONENT_OPEN, false, true, false, false, "depthBiasConstantFactor = U",
-     ", depthBiasSlopeFactor = F", UNSCALED, "glsl", NULL, NULL},
+     ", depthBiasSlopeFactor = F", UNSCALED, "glsl", NULL, NULL, false},
     {"vulkan-unorm", "vk-unorm",
      "representation LEAST_REPRESENTABLE_VALUE_FORCE_UNORM with depthBiasExact: one r for all depths of a float buffer",
      "Vulkan specification, Depth Bias Computation; VK_EXT_depth_bias_control",
      BIAS_POWER, BIAS_MANTISSA, BIAS_EXPONENT_OPEN, false, true, false, false, "depthBiasConstantFactor = U",
-     ", depthBiasSlopeFactor = F", UNSCALED, "glsl", NULL, NULL},
+     ", depthBiasSlopeFactor = F", UNSCALED, "glsl", NULL, NULL, false},
     {"vulkan-float", "vk-float", "representation FLOAT: r = 1, units are window depth, as in d3d9",
      "Vulkan specification, Depth Bias Computation; VK_EXT_depth_bias_control",
      BIAS_ONE, BIAS_ONE, BIAS_EXPONENT_OPEN, false, true, false, false, "depthBiasConstantFactor = U",
-     ", depthBiasSlopeFactor = F", UNSCALED, "glsl", NULL, NULL},
+     ", depthBiasSlopeFactor = F", UNSCALED, "glsl", NULL, NULL, false},
     {"gl", "opengl gles webgl",
      "glPolygonOffset(factor, units); the clamp is EXT_polygon_offset_clamp or GL 4.6; for integer buffers r is the "
      "implementation's choice, 2^-N is assumed", "OpenGL specification, Depth Offset; EXT_polygon_offset_clamp",
      BIAS_FREE, BIAS_EXPONENT, BIAS_EXPONENT_OPEN, false, true, false, true, "glPolygonOffset(F, U)", "",
-     UNSCALED, "glsl", "gl", "unorm24"},
+     UNSCALED, "glsl", "gl", "unorm24", false},
     {"three", "threejs three.js polygonOffset",
      "of a material with polygonOffset = true, handed to gl.polygonOffset(): see gl; WebGL has no clamp",
      "three.js, src/renderers/webgl/WebGLState.js (setPolygonOffset)",
      BIAS_FREE, BIAS_EXPONENT, BIAS_EXPONENT_OPEN, false, false, false, true,
-     "polygonOffsetFactor = F, polygonOffsetUnits = U", "", UNSCALED, "glsl", "gl", "unorm24"},
+     "polygonOffsetFactor = F, polygonOffsetUnits = U", "", UNSCALED, "glsl", "gl", "unorm24", false},
     {"d3d9", "direct3d9 d3d8to9", "D3DRS_DEPTHBIAS is a window depth; there is no clamp",
      "Direct3D 9, Depth Bias: Offset = m D3DRS_SLOPESCALEDEPTHBIAS + D3DRS_DEPTHBIAS",
      BIAS_ONE, BIAS_ONE, BIAS_EXPONENT_OPEN, false, false, false, false, "D3DRS_DEPTHBIAS = U",
-     ", D3DRS_SLOPESCALEDEPTHBIAS = F", UNSCALED, "hlsl", NULL, "unorm24"},
+     ", D3DRS_SLOPESCALEDEPTHBIAS = F", UNSCALED, "hlsl", NULL, "unorm24", false},
 };
 /* clang-format on */
 enum { ROW_COUNT = sizeof rows / sizeof rows[0] };
@@ -195,11 +195,12 @@ bias_effect bias_at(const dp_setup *setup, const bias_state *state, double slope
         effect.to = z;
         return effect;
     }
-    effect.limited = effect.depth < 0.0 || effect.depth > 1.0;
-    effect.depth = fmin(fmax(effect.depth, 0.0), 1.0);
+    const double low = setup->low, high = low + setup->span;
+    effect.limited = effect.depth < low || effect.depth > high;
+    effect.depth = fmin(fmax(effect.depth, low), high);
     effect.moved = dp_format_encode(format, setup->spec.rounding, effect.depth);
     if (effect.limited) {
-        effect.to = (effect.depth > 0.5) != (setup->reversed != 0) ? setup->spec.zfar : setup->spec.znear;
+        effect.to = (effect.depth == high) != (setup->reversed != 0) ? setup->spec.zfar : setup->spec.znear;
         effect.shift = effect.to - z;
         return effect;
     }
@@ -259,8 +260,8 @@ static bool is_held(const dp_setup *setup, const bias_goal *goal, double z, doub
     const double d = dp_window(setup, z), whole = (fmax(window, code) + off) * (1.0 + 0x1p-20);
     if (goal->clamp > 0.0 && whole > goal->clamp)
         return true;
-    return goal->judged && (whole > (setup->reversed ? 1.0 - d : d) ||
-                            (setup->spec.triangles.width > 0 && whole > (setup->reversed ? d : 1.0 - d)));
+    return goal->judged &&
+           (whole > fabs(d - setup->ends[0]) || (setup->spec.triangles.width > 0 && whole > fabs(setup->ends[1] - d)));
 }
 
 /* bias_needed() at z for a primitive whose greatest window depth has the exponent e. */
@@ -397,7 +398,7 @@ double bias_needed_over(const dp_setup *setup, const bias_goal *goal, double lo,
         return needed_over_slanted(setup, goal, lo, hi, worst);
     const dp_format *format = &setup->spec.format;
     const double d_lo = dp_window(setup, lo);
-    const double d_hi = isinf(hi) ? (setup->reversed ? 0.0 : 1.0) : dp_window(setup, hi);
+    const double d_hi = isinf(hi) ? setup->ends[1] : dp_window(setup, hi);
     const int first = exponent_of(format, fmin(d_lo, d_hi));
     const int last = exponent_of(format, fmax(d_lo, d_hi));
     double most = -(double)INFINITY;

@@ -18,7 +18,9 @@
  *               by the row's convention: of a depth in [2^n, 2^(n+1)) it is n, n + 1, or left open
  *     MANTISSA  2^-(M + 1)
  *
- * Bias is applied to the depth that the hardware holds, a binary32 number, and the result is clamped to [0, 1].
+ * Bias is applied to the depth that the hardware holds, a binary32 number, and the result is clamped to [0, 1]. Of a
+ * depth range Direct3D and WebGPU clamp it to that; others do where depth is clamped in place of clipped. bias_at()
+ * clamps to the range, and a verdict holds either way.
  */
 #ifndef BIAS_BIAS_H
 #define BIAS_BIAS_H
@@ -60,6 +62,7 @@ typedef struct bias_api {
     const char *language;           /**< of its shaders, a name of `list languages` */
     const char *mapping;            /**< the one that its clip range has; null where its programs have several */
     const char *format;             /**< what its windows have; null where a program chooses */
+    bool rising;                    /**< a viewport's minimum is at most its maximum */
 } bias_api;
 
 /** Whether the convention of the exponent is open for that format. */

@@ -87,11 +87,11 @@ static bool fails_at(const search *s, float d) {
         return false;
     const double m = bias_window_slope(setup, z, s->asked->slope);
     const double below = (double)(float)((double)d - (s->apart ? m * bias_sign(setup) : 0.0));
-    if (!(below >= 0.0 && below <= 1.0))
+    if (!(below >= setup->low && below <= setup->low + setup->span))
         return false;
     const double r = bias_unit_at(s->state->api, format, fmax((double)d, below)).least;
     const double o = bias_offset(s->state, r, m);
-    const double sum = fmin(fmax((double)(float)(below + o), 0.0), 1.0);
+    const double sum = fmin(fmax((double)(float)(below + o), 0.0), 1.0); /* some APIs hold it to a depth range, too */
     const uint32_t code = dp_format_encode(format, setup->spec.rounding, (double)d);
     const uint32_t moved = dp_format_encode(format, setup->spec.rounding, sum);
     const bool apart = setup->reversed ? moved > code : moved < code;

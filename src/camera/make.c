@@ -5,12 +5,13 @@
 #include <string.h>
 #include <strings.h>
 
+#include "camera/depth_range.h"
 #include "core/append.h"
 #include "core/engine.h"
 
 const char *const camera_keys[CAMERA_KEYS + 1] = {
-    "preset", "matrix",   "near", "far",  "mapping", "format",   "ortho", "rounding", "model", "arith",
-    "log_c",  "viewport", "fov",  "hfov", "raster",  "subpixel", "slant", "triangle", NULL};
+    "preset", "matrix",      "near",     "far", "mapping", "format", "ortho",    "rounding", "model",    "arith",
+    "log_c",  "depth_range", "viewport", "fov", "hfov",    "raster", "subpixel", "slant",    "triangle", NULL};
 
 static bool said(const camera_said *c, camera_key key) {
     return c->words[key] != NULL;
@@ -65,6 +66,8 @@ bool camera_viewed(camera_said *c, camera_fault *fault) {
         return camera_fails(fault, "matrix", "of four tangents needs @viewport: surfaces face the camera");
     if (!slanted)
         return true;
+    if (!camera_range_views(c->depth_range, c->use.drawn ? "rasterize" : "viewport", fault))
+        return false;
     if (c->ortho)
         return camera_fails(fault, c->use.drawn ? "rasterize" : "viewport",
                             "conflicts with @ortho: what slants lose is known of perspectives alone");
@@ -269,8 +272,9 @@ bool camera_make(camera_said *c, const unit_row *unit, camera_fault *fault) {
         c->model_auto = true;
         c->model = DP_MODEL_EXACT;
     }
-    if (!check_matrix(c, fault) || !check_rg(c, fault) || !camera_canvas(c, fault) || !take_view(c, fault) ||
-        !camera_grid(c, fault))
+    if (!check_matrix(c, fault) || !check_rg(c, fault) ||
+        !camera_range_takes(camera_said_api(c), c->depth_range, fault) || !camera_canvas(c, fault) ||
+        !take_view(c, fault) || !camera_grid(c, fault))
         return false;
     if (c->preset_count == 1 && !take_preset(c, c->presets[0], unit, fault))
         return false;
@@ -301,6 +305,7 @@ dp_spec camera_to_spec(const camera_said *c) {
                      .model = c->model,
                      .arith = c->arith,
                      .log_c = c->log_c,
+                     .depth_range = {c->depth_range[0], c->depth_range[1]},
                      .triangles = c->triangles};
 }
 
@@ -319,7 +324,8 @@ bool camera_assumed(const camera_said *c, const dp_spec *spec, dp_spec *out) {
     camera_said assumed = *c;
     camera_fault fault = {.key = NULL};
     dp_triangles *t = &assumed.triangles;
-    if (spec->triangles.width > 0 || dp_mapping_get(spec->mapping)->curve != DP_CURVE_PERSPECTIVE)
+    if (spec->triangles.width > 0 || camera_range_moves(c->depth_range) ||
+        dp_mapping_get(spec->mapping)->curve != DP_CURVE_PERSPECTIVE)
         return false;
     *t = dp_triangles_default();
     take_canvas(c, t);

@@ -28,6 +28,7 @@ typedef enum camera_key {
     CAMERA_MODEL,
     CAMERA_ARITH,
     CAMERA_LOG_C,
+    CAMERA_DEPTH_RANGE,
     CAMERA_VIEWPORT, /**< from here on what surfaces that slant need */
     CAMERA_FOV,
     CAMERA_HFOV,
@@ -67,6 +68,7 @@ typedef struct camera_use {
     dp_mapping mappings[DP_MAPPING_COUNT]; /* in the order given, each once */                                         \
     size_t mapping_count;                                                                                              \
     double log_c;                                                                                                      \
+    double depth_range[2]; /* of the viewport, as a specification has it; both 0: 0 and 1 */                           \
     dp_rounding rounding;                                                                                              \
     dp_model model;  /* DP_MODEL_COUNT until it is made: the simplest that suffices */                                 \
     bool model_auto; /* that was asked for, see choice.h; `model` is then exact */                                     \
@@ -115,6 +117,11 @@ bool camera_angle(const camera_said *c, double given, int width, int height, dou
 /** Takes its matrix apart and what it says of the camera from it: planes, mapping, projection. Once, where one is
  * given; `like` and `oblique` as camera_matrix_take() has them. */
 bool camera_take_matrix(camera_said *c, dp_mapping like, bool oblique, camera_fault *fault);
+
+/** The API of its platform or one preset; null where there is none. */
+static inline const char *camera_said_api(const camera_said *c) {
+    return c->platform != NULL ? c->platform->api : c->preset_count == 1 ? c->presets[0]->api : NULL;
+}
 
 /** Whether near and far were said: by themselves, or by a preset or a matrix, which say all. */
 static inline bool camera_says_planes(const camera_said *c) {

@@ -31,7 +31,7 @@ way way_choose(const dp_setup *setup, double tolerance, bool cut_cells) {
                               .cut_cells = cut_cells && !pipeline,
                               .pipeline = pipeline};
     /* Claims are of far/near, which says nothing where near is not in front. */
-    const bool claimed = which < family->case_count && spec->znear > 0;
+    const bool claimed = which < family->case_count && spec->znear > 0 && !setup->ranged;
     const method_row *row = claimed ? method_choose(family, which, &wish) : NULL;
     if (row == NULL)
         return (way){.name = pipeline ? NULL : "cell", .claim = pipeline ? (double)NAN : 0};

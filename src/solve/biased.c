@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "bias/limits.h"
+#include "camera/depth_range.h"
 #include "core/engine.h"
 
 enum { API, UNITS, FACTOR, CLAMP, SLOPE, GAP, KEYS };
@@ -38,6 +39,9 @@ static bool suits(reader *r, setting *const *found, const setting *group, const 
                            reader_shown(r, found[UNITS]));
     if (found[CLAMP] != NULL && !api->clamps)
         return reader_fail(r, found[CLAMP], "bias: clamp must not be given for %s, which has none", api->name);
+    camera_fault fault = {.key = NULL};
+    if (!camera_range_suits(api, camera->setups[0].spec.depth_range, &fault))
+        return reader_fault(r, group, NULL, &fault);
     if (camera->setups[0].spec.triangles.width > 0 && camera->setups[0].curve != DP_CURVE_PERSPECTIVE)
         return reader_fail(r, group,
                            "bias: needs one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE

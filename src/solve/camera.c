@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "camera/depth_range.h"
 #include "core/append.h"
 #include "quantity/quantity.h"
 #include "solve/model.h"
@@ -151,10 +152,12 @@ static bool read_log_c(reader *r, setting *s, camera_said *c) {
 }
 
 static reader_key *const number_keys[CAMERA_KEYS] = {
-    [CAMERA_MATRIX] = read_matrix, [CAMERA_NEAR] = read_plane,       [CAMERA_FAR] = read_plane,
-    [CAMERA_ORTHO] = read_ortho,   [CAMERA_LOG_C] = read_log_c,      [CAMERA_VIEWPORT] = reader_viewport,
-    [CAMERA_FOV] = reader_angle,   [CAMERA_HFOV] = reader_angle,     [CAMERA_SUBPIXEL] = reader_subpixel,
-    [CAMERA_SLANT] = reader_slant, [CAMERA_TRIANGLE] = reader_class,
+    [CAMERA_MATRIX] = read_matrix,       [CAMERA_NEAR] = read_plane,
+    [CAMERA_FAR] = read_plane,           [CAMERA_DEPTH_RANGE] = reader_depth_range,
+    [CAMERA_ORTHO] = read_ortho,         [CAMERA_LOG_C] = read_log_c,
+    [CAMERA_VIEWPORT] = reader_viewport, [CAMERA_FOV] = reader_angle,
+    [CAMERA_HFOV] = reader_angle,        [CAMERA_SUBPIXEL] = reader_subpixel,
+    [CAMERA_SLANT] = reader_slant,       [CAMERA_TRIANGLE] = reader_class,
 };
 
 /* Nothing that the verdict hangs on has a silent default: a camera names it, itself or by a preset or a matrix. */
@@ -191,7 +194,7 @@ static bool make_setups(const camera_said *c, need_camera *out, camera_fault *fa
             return false;
         const dp_status status = quantity_setup(&spec, &out->setups[i]);
         if (status != DP_OK)
-            return camera_refused(&spec, status, "", fault);
+            return !camera_range_refused(&spec, status, fault) && camera_refused(&spec, status, "", fault);
     }
     return camera_serves(c, CAMERA_LOG_C, &spec, sizeof spec, 1, fault) &&
            camera_serves(c, CAMERA_ARITH, &spec, sizeof spec, 1, fault);
@@ -221,6 +224,8 @@ static bool read_world(reader *r, setting *const *found, const camera_said *c, n
                            "from_origin: needs a perspective and one of the mappings " DP_MAPPING_NAMES_PERSPECTIVE);
     if (!c->model_auto && c->model != DP_MODEL_FLOAT)
         return reader_fail(r, origin, "from_origin: needs the model auto or float");
+    if (found[CAMERA_DEPTH_RANGE] != NULL)
+        return reader_fail(r, origin, "from_origin: is of the depth range 0 to 1, not with depth_range");
     if (found[CAMERA_VIEWPORT] != NULL)
         return reader_fail(r, origin, "from_origin: is of surfaces that face the camera, not with viewport");
     return true;

@@ -50,7 +50,7 @@ bool reader_share(reader *r, const setting *s, const char *key, double *out);
 
 /* Reads what a key of a camera says. */
 typedef bool reader_key(reader *r, setting *s, camera_said *c);
-reader_key reader_viewport, reader_angle, reader_subpixel, reader_slant, reader_class;
+reader_key reader_depth_range, reader_viewport, reader_angle, reader_subpixel, reader_slant, reader_class;
 
 bool reader_camera(reader *r, setting *group, need_camera *out);
 

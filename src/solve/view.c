@@ -37,6 +37,13 @@ bool reader_slant(reader *r, setting *s, camera_said *c) {
     return true;
 }
 
+bool reader_depth_range(reader *r, setting *s, camera_said *c) {
+    static const char form[] = "(LO, HI), two window depths from 0 to 1";
+    return read_pair(r, s, 0, 1, form, c->depth_range) &&
+           (c->depth_range[0] != c->depth_range[1] ||
+            reader_fail(r, s, "depth_range: must be %s, got %g twice", form, c->depth_range[0]));
+}
+
 /* Degrees, as the options take them. */
 bool reader_angle(reader *r, setting *s, camera_said *c) {
     return reader_number_within(s, CAMERA_FOV_LEAST, CAMERA_FOV_MOST,

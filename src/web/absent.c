@@ -5,6 +5,8 @@
  */
 #include <stdio.h>
 
+#include "camera/cmd/setups.h"
+#include "camera/depth_range.h"
 #include "camera/profile.h"
 #include "cli/link.h"
 #include "cli/words.h"
@@ -51,6 +53,7 @@ static const option_row no_rows[] = {{.name = NULL}};
 
 ABSENT_OPTIONS(code)
 ABSENT_OPTIONS(convert)
+ABSENT_OPTIONS(range)
 ABSENT_OPTIONS(scene)
 ABSENT_OPTIONS(scene_eye)
 ABSENT_OPTIONS(shadow)
@@ -66,6 +69,53 @@ ABSENT_COMMAND(scene)
 ABSENT_COMMAND(shadow)
 ABSENT(cmd_texture)
 ABSENT_COMMAND(world)
+
+const column setup_end_columns[] = {{.kind = COLUMN_END}};
+
+const setup_depths *setup_ends(const dp_spec *spec) {
+    (void)spec;
+    return NULL;
+}
+
+const char *setup_range(const setup_fields *f, char out[SETUP_RANGE_SIZE]) {
+    (void)f;
+    *out = '\0';
+    return out;
+}
+
+int range_complete(const camera_asked *c) {
+    (void)c;
+    return EXIT_FINE;
+}
+
+bool camera_range_moves(const double range[2]) {
+    (void)range;
+    return false;
+}
+
+bool camera_range_takes(const char *api, const double range[2], camera_fault *fault) {
+    (void)api;
+    return camera_range_suits(NULL, range, fault);
+}
+
+bool camera_range_suits(const bias_api *api, const double range[2], camera_fault *fault) {
+    (void)api;
+    (void)range;
+    (void)fault;
+    return true;
+}
+
+bool camera_range_views(const double range[2], const char *by, camera_fault *fault) {
+    (void)by;
+    return camera_range_suits(NULL, range, fault);
+}
+
+bool camera_range_refused(const dp_spec *spec, dp_status status, camera_fault *fault) {
+    (void)spec;
+    (void)status;
+    (void)fault;
+    return false;
+}
 
 int constants_write(const table_request *o) {
     return absent(o->line);
@@ -123,6 +173,7 @@ ABSENT_FIGURE(world_build)
 
 #define ABSENT_TABLE(name) const named_table name##_table = {NULL, 0, 0};
 
+ABSENT_TABLE(upscaler)
 ABSENT_TABLE(effect)
 ABSENT_TABLE(finder_filter)
 ABSENT_TABLE(normal)

@@ -166,6 +166,7 @@ static const struct {
     {"mapping", BIT(budget) | BIT(zfight) | BIT(prepass) | BIT(code) | BIT(world) | BIT(scene), "reversed"},
     {"mapping", ALL, "d3d,reversed"},
     {"log-c", ALL, "1"},
+    {"depth-range", ALL, "0:1"},
     {"rounding", ALL, "nearest"},
     {"model", BIT(solve), "float"},
     {"model", ALL, "exact"},

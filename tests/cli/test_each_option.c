@@ -80,6 +80,7 @@ static const struct {
     {"model", "staged"},
     {"arith", "mesa"},
     {"log-c", "0.02"},
+    {"depth-range", "0.1:1"},
     {"tolerance", "33%"},
     {"at", "7"},
     {"range", "2:9"},

@@ -880,6 +880,8 @@ TEST(test_no_slants) {
         refused(&t, "table", "viewport", viewports[i], "WIDTHxHEIGHT, each from 1 to 32768 pixels");
     for (size_t i = 0; i < sizeof slants / sizeof slants[0]; i++)
         refused(&t, "table", "slant", slants[i], "LO:HI, from 0 to 90 degrees");
+    for (size_t i = 0; i < 2; i++)
+        refused(&t, "table", "depth-range", i == 0 ? "0.5" : "0:x", "LO:HI, two window depths from 0 to 1");
     for (size_t i = 0; i < sizeof planes / sizeof planes[0]; i++)
         refused(&t, "zfight", "slant", planes[i], "SLANT,AZIMUTH, from 0 to 90 and from -360 to 360 degrees");
     for (size_t i = 0; i < sizeof classes / sizeof classes[0]; i++)

@@ -12,6 +12,7 @@
 
 #include "bias/cmd_bias/report.h"
 #include "camera/cmd/raster_setups.h"
+#include "camera/depth_range.h"
 #include "core/append.h"
 #include "draw/canvas.h"
 #include "report/terminal.h"
@@ -335,7 +336,8 @@ static int check_one(const bias_request *o, const bias_api *api) {
                             by != NULL && by->drops_clamp ? by->name : api->name);
     if (option_given(o->line, "clamp") && !given)
         return option_error("clamp", "must be given together with --units");
-    return EXIT_FINE;
+    camera_fault fault = {.key = NULL};
+    return camera_range_suits(api, o->camera.depth_range, &fault) ? EXIT_FINE : camera_refuse(&fault);
 }
 
 static int check_several(const bias_request *o) {

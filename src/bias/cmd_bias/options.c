@@ -162,7 +162,7 @@ const option_use bias_brought[] = {
 static const option_use uses[] = {
     ROWS(bias_rows), ROWS(check_rows), GROUP_OF(bias_brought),
     OWN("format", DEFAULT("fp32")),
-    TAKE("at"), TAKE("range"), TAKE("log-c"), TAKE("link"),
+    TAKE("at"), TAKE("range"), TAKE("log-c"), TAKE("depth-range"), TAKE("link"),
     OWN("viewport", WITHOUT("surfaces face the camera; 1920x1080 with --rasterize")),
     OWN("raster", HELP("the rasterizer or specification, as in 'depthprec list rasterizers', or the profile of a GPU; "
         "with --rasterize one that draws: llvmpipe, lavapipe, softpipe or swiftshader"),

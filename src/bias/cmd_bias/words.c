@@ -254,7 +254,7 @@ void bias_say_notes(page *p, void *item) {
     if (b->when & BIAS_OF_REMEDY)
         return;
     if (b->limited && (b->when & EFFECT))
-        page_line(p, "a biased depth outside [0, 1] is clamped to the plane");
+        page_line(p, "a biased depth beyond a plane is clamped to it");
     say_r(p, b);
     if (by != NULL && by->bias[0] != '\0')
         page_line(p, "%s %s", by->name, by->bias);

@@ -38,7 +38,7 @@ typedef struct camera_asked {
 } camera_asked;
 
 /** The options of planes, formats, arithmetic and depths; those of a view and slanted triangles in it. */
-extern const option_table camera_options, view_options;
+extern const option_table camera_options, range_options, view_options;
 
 /** The options that several commands take. */
 extern const option_use camera_planes[], camera_uses[], camera_projected[], camera_slanted[], camera_beside_viewport[];
@@ -101,6 +101,9 @@ int view_vertical(const camera_asked *c, int width, int height, double *fov_y);
 
 /** Checks --viewport with the options beside it, and takes the field of view. @return as view_vertical() */
 int slant_view(camera_asked *c);
+
+/** Refuses a depth range beside what knows none. @return as view_vertical() */
+int range_complete(const camera_asked *c);
 
 /** View and rasterizer of what is drawn: 1920x1080 where no --viewport was given, llvmpipe where no --raster, and of
  * the formats those that it has. @return EXIT_FINE, or EXIT_USAGE after one line on stderr */

@@ -8,7 +8,7 @@
 #include "report/output.h"
 
 const char *camera_api(const camera_asked *c) {
-    return c->platform != NULL ? c->platform->api : c->preset_count == 1 ? c->presets[0]->api : NULL;
+    return camera_said_api(&c->said);
 }
 
 const char *camera_language(const camera_asked *c) {
@@ -76,7 +76,9 @@ int camera_complete(camera_asked *c, const camera_use *use) {
             "z loses its digits; -F %s tells of the format alone",
             c->platform->name, c->platform->stored);
     camera_fault fault = {.key = NULL};
-    int status = camera_canvas(&c->said, &fault) ? slant_complete(c) : camera_refuse(&fault);
+    int status = camera_canvas(&c->said, &fault) ? range_complete(c) : camera_refuse(&fault);
+    if (status == EXIT_FINE)
+        status = slant_complete(c);
     if (status == EXIT_FINE)
         status = make(c);
     return status == EXIT_FINE && c->preset_count > 1 ? resolve_each(c) : status;

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "camera/depth_range.h"
 #include "core/engine.h"
 #include "report/message.h"
 #include "report/number.h"
@@ -14,6 +15,8 @@ int setup_refused(const camera_asked *c, const dp_spec *spec, dp_status status) 
     const dp_mapping_row *row = dp_mapping_get(spec->mapping);
     const bool counted = c->use.counted && row->curve == DP_CURVE_LOG;
     camera_fault fault = {.key = NULL};
+    if (camera_range_refused(spec, status, &fault))
+        return camera_refuse(&fault);
     if (status == DP_ERROR_MODEL && !option_given(c->line, "model"))
         return option_error("mapping",
                             "must be one of " DP_MAPPING_NAMES_PERSPECTIVE
@@ -135,6 +138,7 @@ const column setup_columns[] = {
     {FIELD(setup_fields, model, "model", "")},
     {FIELD(setup_fields, arith, "arith", ""), .only = AS_JSON, .optional = true},
     {FIELD(setup_fields, log_c, "log_c", ""), .only = AS_JSON, .optional = true},
+    {PART(setup_fields, ends, "depth_range", setup_end_columns), .only = AS_JSON, .pointed = true, .optional = true},
     {FIELD(setup_fields, unit, "unit", ""), .only = AS_JSON},
     {FIELD(setup_fields, preset, "preset", ""), .only = AS_JSON, .optional = true},
     {PART(setup_fields, planes, "planes", plane_columns), .only = AS_JSON, .pointed = true, .optional = true},
@@ -159,6 +163,7 @@ setup_fields setup_fields_of(const dp_setup *setup, const char *unit) {
                       .format = spec->format.name,
                       .rounding = dp_rounding_name(spec->rounding),
                       .model = dp_model_name(spec->model),
+                      .ends = setup_ends(spec),
                       .unit = unit};
     if (setup_model(setup) == DP_MODEL_FLOAT)
         setup_fields_budget(setup, &f);
@@ -182,10 +187,12 @@ number_text setup_far(const setup_fields *f) {
 
 const char *setup_label_as(const dp_setup *setup, const setup_fields *f, char out[SETUP_LABEL_SIZE]) {
     const bool has_log_c = !isnan(f->log_c), has_arith = f->arith != NULL; /* only the model float has one */
-    snprintf(out, SETUP_LABEL_SIZE, "%s %s%s%s, near %s, far %s, %s, %s, %s%s%s", f->format, f->mapping,
+    char range[SETUP_RANGE_SIZE];
+    snprintf(out, SETUP_LABEL_SIZE, "%s %s%s%s, near %s, far %s, %s%s, %s, %s%s%s", f->format, f->mapping,
              has_log_c ? " C " : "", has_log_c ? number_full(f->log_c).text : "", setup_near(f).text, setup_far(f).text,
-             f->projection, f->rounding, option_word("model", has_arith ? DP_MODEL_FLOAT : setup->spec.model),
-             has_arith ? " " : "", has_arith ? f->arith : "");
+             f->projection, setup_range(f, range), f->rounding,
+             option_word("model", has_arith ? DP_MODEL_FLOAT : setup->spec.model), has_arith ? " " : "",
+             has_arith ? f->arith : "");
     return out;
 }
 
@@ -246,7 +253,7 @@ void setup_say_planes(page *p, const setup_fields *fields) {
 
 void setup_say_code(page *p, const dp_spec *spec) {
     const dp_mapping_row *mapping = dp_mapping_get(spec->mapping);
-    if (mapping->curve == DP_CURVE_PERSPECTIVE && !spec->ortho)
+    if (mapping->curve == DP_CURVE_PERSPECTIVE && !spec->ortho && setup_ends(spec) == NULL)
         page_note(p, "code", "depthprec code -n %s -f %s -m %s", number_full(spec->znear).text,
                   number_full(spec->zfar).text, mapping->name);
 }

@@ -47,8 +47,8 @@ int setup_kept(const camera_asked *c, const dp_format *format);
  */
 int setup_decided(const camera_asked *c);
 
-/** The room that setup_label() needs, with the terminating null. */
-enum { SETUP_LABEL_SIZE = 160 };
+/** The room that setup_label() and setup_range() need, with the terminating null. */
+enum { SETUP_LABEL_SIZE = 240, SETUP_RANGE_SIZE = 80 };
 
 /**
  * One line about a set-up for legends and headers, "unorm24 d3d", and, where `full`, the rest as well:
@@ -56,17 +56,29 @@ enum { SETUP_LABEL_SIZE = 160 };
  */
 const char *setup_label(const dp_setup *setup, bool full, char out[SETUP_LABEL_SIZE]);
 
+/** A depth range, as a specification has it. */
+typedef struct setup_depths {
+    double lo, hi;
+} setup_depths;
+
+/** That of a specification; null where it is 0 to 1. */
+const setup_depths *setup_ends(const dp_spec *spec);
+
+extern const column setup_end_columns[];
+
 /**
  * The fields that name a set-up in JSON and CSV: near, far, projection, mapping, format, rounding, model. In JSON
- * `arith` follows where the model is float, `log_c` where the mapping is log, and the unit, null where nothing says it.
+ * `arith` follows where the model is float, `log_c` where the mapping is log, the depth range where it is not 0 to 1,
+ * and the unit, null where nothing says it.
  */
 typedef struct setup_fields {
     double znear, zfar, log_c; /**< log_c is NaN unless the mapping is log */
     const char *projection, *mapping, *format, *rounding, *model;
-    const char *arith;       /**< null unless the model is float */
-    const char *unit;        /**< what a scene unit is; null where nothing says it */
-    const char *preset;      /**< null where there are not several */
-    const dp_planes *planes; /**< what near and far may be, where a matrix was rounded; else null */
+    const char *arith;        /**< null unless the model is float */
+    const char *unit;         /**< what a scene unit is; null where nothing says it */
+    const char *preset;       /**< null where there are not several */
+    const setup_depths *ends; /**< the viewport's depth range; null where it is 0 to 1 */
+    const dp_planes *planes;  /**< what near and far may be, where a matrix was rounded; else null */
 } setup_fields;
 
 extern const column setup_columns[];
@@ -80,6 +92,9 @@ setup_fields setup_fields_asked(const dp_setup *setup, const camera_asked *c);
 /** Near and far of them, to the digits that a matrix carries. */
 number_text setup_near(const setup_fields *f);
 number_text setup_far(const setup_fields *f);
+
+/** ", depth range 0:0.1", or "" where it is 0 to 1. @return out */
+const char *setup_range(const setup_fields *f, char out[SETUP_RANGE_SIZE]);
 
 /** The model of its separations: a shader's are in binary32, too. */
 dp_model setup_model(const dp_setup *setup);

@@ -38,7 +38,8 @@ int output_start(const output_asked *o, const camera_asked *camera, output *out)
 
 /** The places of its tables. */
 #define CAMERA_PLACES(request)                                                                                         \
-    PLACE(request, camera, camera_options), PLACE(request, camera, view_options), PLACE(request, out, output_options)
+    PLACE(request, camera, camera_options), PLACE(request, camera, range_options),                                     \
+        PLACE(request, camera, view_options), PLACE(request, out, output_options)
 
 /** camera_complete() of such a request that says no more of its camera. */
 int camera_request_complete(void *request);

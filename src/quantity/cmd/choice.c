@@ -15,7 +15,7 @@ static int fullest(const dp_choice *choice) {
 /* The first that neglects no more than is allowed. */
 static dp_model simplest(const dp_choice *choice, double tolerance) {
     int m = DP_MODEL_EXACT;
-    while (m < fullest(choice) && choice->share[m] > tolerance)
+    while (m < fullest(choice) && !(choice->share[m] <= tolerance)) /* NaN: the set-up has it not */
         m++;
     return (dp_model)m;
 }
@@ -102,7 +102,8 @@ void choice_fields_of(const choosing *c, choice_fields *out) {
                            .exact = share_of(&c->choice, DP_MODEL_EXACT),
                            .staged_share = share_of(&c->choice, DP_MODEL_STAGED),
                            .shader_share = {c->shader_share, c->shader_share > 0.0 ? c->shader_z : (double)NAN}};
-    out->staged = fullest(&c->choice) > DP_MODEL_STAGED ? &out->staged_share : NULL;
+    const bool staged = fullest(&c->choice) > DP_MODEL_STAGED && !isnan(c->choice.share[DP_MODEL_STAGED]);
+    out->staged = staged ? &out->staged_share : NULL;
     out->shader = c->full.shader ? &out->shader_share : NULL;
 }
 

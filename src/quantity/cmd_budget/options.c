@@ -11,7 +11,7 @@ static const option_use uses[] = {
     OWN("mapping", HELP(CAMERA_PERSPECTIVE ", " DP_MAPPING_NAMES_LOG),
         DEFAULT("reversed")),
     OWN("tolerance", HELP("a model suffices if it neglects no more of the separation, 0.05 or 5%"), DEFAULT("5%")),
-    TAKE("at"), TAKE("log-c"),
+    TAKE("at"), TAKE("log-c"), TAKE("depth-range"),
     OWN("scheme", HELP("with --from-origin: the world-to-view scheme, see 'depthprec list schemes'"),
         WITHOUT("absolute: as --composition says")),
     OWN("share", HELP("with --scheme: the meshes of both surfaces have one origin")),

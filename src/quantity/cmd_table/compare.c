@@ -312,19 +312,20 @@ static void say_notes(page *p, void *item) {
 /* Says what the cameras have in common, and where there are several the planes of each. */
 static void say_cameras(page *p, const comparison *c) {
     const table_request *o = c->o;
-    char planes[1024] = "", more[64] = "", words[PRESET_WORDS_SIZE];
+    char planes[1024] = "", more[64 + SETUP_RANGE_SIZE] = "", words[PRESET_WORDS_SIZE];
+    const setup_fields f = setup_fields_asked(&c->each->all.items[0], &o->camera);
+    setup_range(&f, more);
     if (o->camera.rounding != DP_ROUND_NEAREST)
         append(more, sizeof more, ", rounding %s", dp_rounding_name(o->camera.rounding));
     if (p->unit != NULL)
         append(more, sizeof more, ", lengths in %s", p->unit);
     if (o->camera.preset_count < 2) {
-        const setup_fields f = setup_fields_asked(&c->each->all.items[0], &o->camera);
         page_title(p, "near %s, far %s, %s%s", setup_near(&f).text, setup_far(&f).text, f.projection, more);
         setup_say_planes(p, &f);
         slant_say(p, page_title, &o->camera, NULL);
         return;
     }
-    page_title(p, "%zu presets, %s%s", o->camera.preset_count, o->camera.ortho ? "orthographic" : "perspective", more);
+    page_title(p, "%zu presets, %s%s", o->camera.preset_count, f.projection, more);
     slant_say(p, page_title, &o->camera, NULL);
     for (size_t k = 0; k < o->camera.preset_count; k++)
         for (size_t i = 0; i < c->each->all.count; i++)

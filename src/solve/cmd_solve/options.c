@@ -51,7 +51,7 @@ static const option_use uses[] = {
     OWN("mapping", WITHOUT("solved for where near, far and format are given, else d3d and reversed")),
     OWN("model", WITHOUT("float: the guarantee; staged for an error, and for linear and log")),
     FOR(SOLVE_ONE, solve_one),
-    TAKE("log-c"), TAKE("for"), TAKE("separation"), TAKE("link"),
+    TAKE("log-c"), TAKE("depth-range"), TAKE("for"), TAKE("separation"), TAKE("link"),
     GROUP_OF(camera_slanted), GROUP_OF(camera_projected), GROUP_OF(output_written), END};
 
 /* A preset without the first number that it needs is asked about that. */

@@ -37,7 +37,7 @@ static const option_use uses[] = {
         "census"), WITHOUT("1920x1080 with --rasterize, else surfaces face the camera")),
     OWN("raster", HELP("the rasterizer or specification, as in 'depthprec list rasterizers'; with --rasterize one "
         "that draws: llvmpipe, lavapipe, softpipe or swiftshader"), WITHOUT("llvmpipe with --rasterize")),
-    TAKE("threads"), TAKE("link"),
+    TAKE("threads"), TAKE("link"), TAKE("depth-range"),
     GROUP_OF(camera_slanted), GROUP_OF(camera_projected), GROUP_OF(output_written), END};
 
 static const option_rule rules[] = {

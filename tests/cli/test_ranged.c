@@ -1,0 +1,404 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * --depth-range, in each command that takes it, by random viewports: codes and cells against exact fractions, what is
+ * guaranteed and counted against a viewport's multiply and add written here, what is solved for and biased against the
+ * formulas of one step. And who refuses it.
+ */
+#include "oracle.h"
+#include "printed.h"
+
+typedef struct viewport {
+    dp_spec spec;
+    char words[256]; /* the options that ask for it */
+} viewport;
+
+static const char *const mappings[] = {[DP_MAPPING_D3D] = "d3d",
+                                       [DP_MAPPING_GL] = "gl",
+                                       [DP_MAPPING_REVERSED] = "reversed",
+                                       [DP_MAPPING_GL_REVERSED] = "gl-reversed"};
+
+static bool is_signed(const dp_spec *s) {
+    return s->mapping == DP_MAPPING_GL || s->mapping == DP_MAPPING_GL_REVERSED;
+}
+
+static bool is_turned(const dp_spec *s) {
+    return s->mapping == DP_MAPPING_REVERSED || s->mapping == DP_MAPPING_GL_REVERSED;
+}
+
+/* Window depth falls with distance. */
+static bool falls(const dp_spec *s) {
+    return is_turned(s) != (s->depth_range[1] < s->depth_range[0]);
+}
+
+/* Ends that binary32 holds, so that words and numbers are the same. */
+static viewport any_viewport(rng *r, const dp_format *formats, size_t count) {
+    viewport v = {.spec = dp_spec_default()};
+    dp_spec *s = &v.spec;
+    s->mapping = (dp_mapping)rng_below(r, DP_MAPPING_GL_REVERSED + 1);
+    s->format = formats[rng_below(r, count)];
+    s->znear = rng_log(r, 0.01, 10);
+    s->zfar = s->znear * rng_log(r, 10, 1e5);
+    do {
+        rng_range(r, s->depth_range);
+        for (int i = 0; i < 2; i++)
+            s->depth_range[i] = (double)(float)s->depth_range[i];
+    } while (
+        !(fabs(s->depth_range[1] - s->depth_range[0]) >= 2e-6 && fmin(s->depth_range[0], s->depth_range[1]) > 2e-6));
+    snprintf(v.words, sizeof v.words, "-n %.17g -f %.17g -m %s -F %s --depth-range %.17g:%.17g", s->znear, s->zfar,
+             mappings[s->mapping], s->format.name, s->depth_range[0], s->depth_range[1]);
+    return v;
+}
+
+/* 1/z moves by this where window depth moves by 1. */
+static double reciprocals_per_depth(const dp_spec *s) {
+    return (1 / s->znear - 1 / s->zfar) / fabs(s->depth_range[1] - s->depth_range[0]);
+}
+
+/* ---- table ------------------------------------------------------------------------------------------------------- */
+
+static void check_cell(const json_t *root, oracle *o, double z, const char *words, tally *t) {
+    oracle_cell cell;
+    mpq_t d;
+    mpq_init(d);
+    oracle_cell_init(&cell);
+    oracle_window(o, d, z);
+    const uint32_t code = oracle_code(o, z);
+    oracle_cell_of(o, &cell, code);
+    const double interval = oracle_double(cell.hi) - oracle_double(cell.lo);
+    TALLY(t, number_at(root, "setups[0].rows[0].code") == code, "%s: code at %.17g", words, z);
+    TALLY(t, oracle_relative(number_at(root, "setups[0].rows[0].depth"), d) <= 1e-14, "%s: depth at %.17g", words, z);
+    TALLY(t, fabs(number_at(root, "setups[0].rows[0].interval") - interval) <= 1e-12 * interval + 1e-15 * z,
+          "%s: interval at %.17g", words, z);
+    TALLY(t,
+          oracle_distance(number_at(root, "setups[0].rows[0].z_stored"), cell.stored) <= 1e-12 * interval + 1e-14 * z,
+          "%s: stored at %.17g", words, z);
+    oracle_cell_clear(&cell);
+    mpq_clear(d);
+}
+
+/* The way back: window depths of both sides of an end, and between. */
+static void check_back(const viewport *v, double share, oracle *o, tally *t) {
+    const double *e = v->spec.depth_range, d = fmin(fmax(e[0] + (e[1] - e[0]) * share, 0), 1);
+    mpq_t asked, z;
+    mpq_inits(asked, z, NULL);
+    mpq_set_d(asked, d);
+    json_t *root = json_printed(0, "table %s --depth %.17g", v->words, d);
+    const double got = number_at(root, "setups[0].rows[0].z");
+    const double want = share <= 0                ? (is_turned(&v->spec) ? v->spec.zfar : v->spec.znear)
+                        : share >= 1              ? (is_turned(&v->spec) ? v->spec.znear : v->spec.zfar)
+                        : oracle_eye(o, z, asked) ? oracle_double(z)
+                                                  : NAN;
+    const double off = want * want * reciprocals_per_depth(&v->spec) * 0x1p-52;
+    TALLY(t, fabs(got - want) <= 1e-14 * want + off, "%s: depth %.17g is at %.17g, should be %.17g", v->words, d, got,
+          want);
+    json_decref(root);
+    mpq_clears(asked, z, NULL);
+}
+
+TEST(table) {
+    const dp_format formats[] = {oracle_unorm(16), oracle_unorm(24), oracle_float(8, 23, 127)};
+    rng r = rng_make("ranged table");
+    tally t = {.name = "table --depth-range"};
+    for (uint64_t i = test_cases(10, 60, 240); i > 0; i--) {
+        const viewport v = any_viewport(&r, formats, 3);
+        const double z = rng_log(&r, v.spec.znear * 1.001, v.spec.zfar * 0.999);
+        oracle o;
+        oracle_init(&o, &v.spec);
+        json_t *root = json_printed(0, "table %s --at %.17g%s", v.words, z, i % 2 ? "" : " --tolerance 5%");
+        check_cell(root, &o, z, v.words, &t);
+        TALLY(&t,
+              number_at(root, "setups[0].depth_range.lo") == v.spec.depth_range[0] &&
+                  number_at(root, "setups[0].depth_range.hi") == v.spec.depth_range[1],
+              "%s: the range is not said", v.words);
+        json_decref(root);
+        check_back(&v, rng_unit(&r), &o, &t);
+        check_back(&v, rng_below(&r, 2) ? -1e-6 : 1 + 1e-6, &o, &t);
+        oracle_clear(&o);
+    }
+    tally_end(&t);
+}
+
+/* The model staged, which a range has not, is not chosen. */
+TEST(chosen) {
+    json_t *root = json_printed(0, "table --depth-range 0:.1 -F fp32 -m d3d --model auto --at 10");
+    assert_string_equal(text_at(root, "setups[0].auto.model"), "float");
+    assert_null(node_at(root, "setups[0].auto.neglected.staged"));
+    json_decref(root);
+}
+
+/* ---- The guarantee ----------------------------------------------------------------------------------------------- */
+
+/* The matrix in binary32 and the viewport's factor and offset. */
+typedef struct machine {
+    const dp_spec *spec;
+    float a, b, scale, offset;
+} machine;
+
+static machine machine_of(const dp_spec *s) {
+    const long double n = s->znear, f = s->zfar, sign = is_turned(s) ? -1 : 1;
+    const double lo = s->depth_range[0], hi = s->depth_range[1];
+    machine m = {.spec = s};
+    if (is_signed(s)) {
+        m.a = (float)(sign * (f + n) / (f - n));
+        m.b = (float)(-sign * 2 * n * f / (f - n));
+        m.scale = (float)(0.5 * (hi - lo));
+        m.offset = (float)(0.5 * (lo + hi));
+    } else {
+        m.a = (float)(is_turned(s) ? n / (n - f) : f / (f - n));
+        m.b = (float)(-sign * n * f / (f - n));
+        m.scale = (float)(hi - lo);
+        m.offset = (float)lo;
+    }
+    return m;
+}
+
+static uint32_t machine_code(const machine *m, float z) {
+    const float product = m->a * z, clip = product + m->b, ndc = clip / z, moved = m->scale * ndc;
+    return oracle_encode(&m->spec->format, DP_ROUND_NEAREST, (double)(moved + m->offset));
+}
+
+/* The codes of two depths, the nearer first, are apart and in their order. */
+static bool told_apart(const machine *m, float nearer, float farther) {
+    const uint32_t one = machine_code(m, nearer), other = machine_code(m, farther);
+    return falls(m->spec) ? one > other : one < other;
+}
+
+TEST(guarantee) {
+    const dp_format formats[] = {oracle_unorm(16), oracle_unorm(24), oracle_float(8, 23, 127), oracle_float(5, 10, 15)};
+    rng r = rng_make("ranged guarantee");
+    tally t = {.name = "what table guarantees in a depth range"}, codes = {.name = "codes of a viewport"};
+    for (uint64_t i = test_cases(20, 150, 1000); i > 0; i--) {
+        const viewport v = any_viewport(&r, formats, 4);
+        const machine m = machine_of(&v.spec);
+        const float z = (float)rng_log(&r, v.spec.znear * 1.001, v.spec.zfar * 0.9);
+        json_t *root = json_printed(0, "table %s --model float --at %.9g", v.words, (double)z);
+        const double apart = number_at(root, "setups[0].rows[0].guaranteed");
+        TALLY(&codes, number_at(root, "setups[0].rows[0].code") == machine_code(&m, z), "%s: code at %.9g", v.words,
+              (double)z);
+        json_decref(root);
+        for (int k = 0; k < 200; k++) {
+            const double behind = (double)z + apart * (k == 0 ? 1 : rng_uniform(&r, 1, 1.5));
+            const float other = nextafterf((float)behind, HUGE_VALF);
+            if (behind < v.spec.zfar)
+                TALLY(&t, told_apart(&m, z, other), "%s: %.9g and %.9g, %g apart", v.words, (double)z, (double)other,
+                      apart);
+        }
+    }
+    tally_end(&t);
+    tally_end(&codes);
+}
+
+/* Every neighbour of some thousand depths. */
+TEST(zfight) {
+    const dp_format formats[] = {oracle_unorm(24), oracle_float(8, 23, 127)};
+    rng r = rng_make("ranged zfight");
+    tally t = {.name = "zfight --depth-range"};
+    for (uint64_t i = test_cases(5, 25, 100); i > 0; i--) {
+        const viewport v = any_viewport(&r, formats, 2);
+        const machine m = machine_of(&v.spec);
+        const float lo = (float)rng_log(&r, v.spec.znear * 1.01, v.spec.zfar * 0.9), hi = lo * 1.0005F;
+        uint32_t ties = 0, swaps = 0;
+        for (float z = lo; z < hi; z = nextafterf(z, HUGE_VALF)) {
+            const float next = nextafterf(z, HUGE_VALF);
+            ties += machine_code(&m, z) == machine_code(&m, next);
+            swaps += machine_code(&m, z) != machine_code(&m, next) && !told_apart(&m, z, next);
+        }
+        json_t *root = json_printed(0, "zfight %s --range %.17g:%.17g", v.words, (double)lo, (double)hi);
+        TALLY(&t, number_at(root, "setups[0].ties") == ties && number_at(root, "setups[0].swaps") == swaps,
+              "%s from %.9g: %g and %g, should be %u and %u", v.words, (double)lo, number_at(root, "setups[0].ties"),
+              number_at(root, "setups[0].swaps"), ties, swaps);
+        TALLY(&t, number_at(root, "setups[0].used") <= 1, "%s: the guarantee is broken", v.words);
+        json_decref(root);
+    }
+    tally_end(&t);
+}
+
+/* ---- solve and check: one step of an integer buffer moves 1/z by as much everywhere -------------------------------
+ */
+
+static double step_of(const dp_spec *s) {
+    return reciprocals_per_depth(s) / (double)s->format.code_max;
+}
+
+/* The near plane that makes surfaces so far apart at z one step apart. */
+static double near_for(const dp_spec *s, double z, double apart) {
+    const double span = fabs(s->depth_range[1] - s->depth_range[0]);
+    return 1 / (apart / z / (z + apart) * span * (double)s->format.code_max + 1 / s->zfar);
+}
+
+TEST(solved) {
+    const dp_format formats[] = {oracle_unorm(16), oracle_unorm(24)};
+    rng r = rng_make("ranged solve");
+    tally t = {.name = "solve --depth-range"};
+    for (uint64_t i = test_cases(10, 60, 200); i > 0; i--) {
+        const viewport v = any_viewport(&r, formats, 2);
+        const dp_spec *s = &v.spec;
+        const double z = rng_log(&r, s->znear * 1.1, s->zfar / 1.1), left = 1 / z - step_of(s), apart = 1 / left - z;
+        if (!(left > 1 / s->zfar))
+            continue;
+        json_t *root = json_printed(0, "solve --for distance %s --separation %.17g --model exact", v.words, apart);
+        const double distance = number_at(root, "answer.distance");
+        TALLY(&t, fabs(distance - z) <= 1e-9 * z, "%s: %.17g holds up to %.17g, should be %.17g", v.words, apart,
+              distance, z);
+        json_decref(root);
+        const double least = near_for(s, z, apart);
+        char words[256];
+        snprintf(words, sizeof words, "%s", strstr(v.words, "-f "));
+        root = json_printed(0, "solve --for near %s --separation %.17g --at %.17g --model exact", words, apart, z);
+        TALLY(&t, fabs(number_at(root, "answer.near") - least) <= 1e-9 * least, "%s: near %.17g, should be %.17g",
+              words, number_at(root, "answer.near"), least);
+        json_decref(root);
+    }
+    tally_end(&t);
+}
+
+TEST(checked) {
+    const dp_format formats[] = {oracle_unorm(16), oracle_unorm(24)};
+    rng r = rng_make("ranged check");
+    tally t = {.name = "check of depth ranges"};
+    for (uint64_t i = test_cases(6, 30, 100); i > 0; i--) {
+        const viewport v = any_viewport(&r, formats, 2);
+        const dp_spec *s = &v.spec;
+        const double z = rng_log(&r, s->znear * 1.1, s->zfar / 1.1), left = 1 / z - step_of(s), apart = 1 / left - z;
+        if (!(left > 1 / s->zfar))
+            continue;
+        for (int passes = 0; passes < 2; passes++) {
+            const char *path =
+                scratch_text("ranged.need",
+                             "cameras = { c = { near = %.17g; far = %.17g; mapping = \"%s\"; format = \"%s\"; "
+                             "depth_range = (%.17g, %.17g); model = \"exact\"; }; };\n"
+                             "requirements = { r = { camera = \"c\"; separation = %.17g; at = %.17g; }; };\n",
+                             s->znear, s->zfar, mappings[s->mapping], s->format.name, s->depth_range[0],
+                             s->depth_range[1], apart * (passes ? 1 + 1e-6 : 1 - 1e-6), z);
+            printed p = print_of("check %s", path);
+            TALLY(&t, p.status == !passes, "%s: check %g at %g gave %d: %s", v.words, apart, z, p.status, p.errors);
+            printed_free(&p);
+        }
+    }
+    tally_end(&t);
+}
+
+/* ---- bias -------------------------------------------------------------------------------------------------------- */
+
+/* A unit more or less in binary32, as OpenGL moves it: r is assumed to be 2^-N. */
+TEST(biased) {
+    const dp_format formats[] = {oracle_unorm(16), oracle_unorm(24)};
+    rng r = rng_make("ranged bias");
+    tally t = {.name = "bias --depth-range"}, enough = {.name = "biases that are enough in a depth range"};
+    for (uint64_t i = test_cases(10, 80, 300); i > 0; i--) {
+        const viewport v = any_viewport(&r, formats, 2);
+        const dp_spec *s = &v.spec;
+        const double sign = falls(s) ? 1 : -1, units = sign * (double)(1 + rng_below(&r, 3)),
+                     unit = ldexp(1, -s->format.bits);
+        const double lo = rng_log(&r, s->znear * 1.0001, s->zfar * 0.5), hi = rng_uniform(&r, lo, s->zfar);
+        const double low = fmin(s->depth_range[0], s->depth_range[1]),
+                     high = fmax(s->depth_range[0], s->depth_range[1]);
+        oracle o;
+        mpq_t d;
+        mpq_init(d);
+        oracle_init(&o, s);
+        oracle_window(&o, d, lo);
+        json_t *root =
+            json_printed(0, "bias %s --api gl --units=%g --at %.17g --range %.17g:%.17g", v.words, units, lo, lo, hi);
+        const double depth = oracle_double(d) + units * unit, kept = fmin(fmax(depth, low), high);
+        const double back = number_at(root, "setups[0].rows[0].depth");
+        TALLY(&t, fabs(back - kept) <= 1e-15, "%s: moved to %.17g, should be %.17g", v.words, back, kept);
+        TALLY(&t, flag_at(root, "setups[0].rows[0].limited") == (kept != depth), "%s: %.17g", v.words, depth);
+        if (kept == depth) {
+            const double to = 1 / (1 / lo + fabs(units) * unit * reciprocals_per_depth(s));
+            TALLY(&t, fabs(number_at(root, "setups[0].rows[0].shift") - (to - lo)) <= 1e-11 * (lo - to) + 0x1p-50 * lo,
+                  "%s: shift at %.17g", v.words, lo);
+        } else {
+            TALLY(&t, fabs(number_at(root, "setups[0].rows[0].shift") - (s->znear - lo)) <= 1e-14 * lo, "%s: held",
+                  v.words);
+        }
+        /* Every depth that a rasterizer may hand over is brought nearer by a code, and is left in the range. */
+        const bool said = strcmp(text_at(root, "setups[0].facing.answer"), "enough") == 0;
+        double ends[2] = {NAN, NAN};
+        for (int k = 0; k < 2 && said; k++) {
+            oracle_window(&o, d, number_at(root, k == 0 ? "setups[0].facing.from" : "setups[0].facing.to"));
+            ends[k] = oracle_double(d);
+        }
+        for (int k = 0; said && k < 300; k++) {
+            const float at = (float)rng_uniform(&r, fmin(ends[0], ends[1]), fmax(ends[0], ends[1])),
+                        sum = at + (float)(units * unit);
+            const uint32_t was = oracle_encode(&s->format, DP_ROUND_NEAREST, (double)at),
+                           is = oracle_encode(&s->format, DP_ROUND_NEAREST, fmin(fmax((double)sum, low), high));
+            TALLY(&enough, sign > 0 ? is > was : is < was, "%s: %g is not enough at depth %.9g", v.words, units,
+                  (double)at);
+        }
+        json_decref(root);
+        oracle_clear(&o);
+        mpq_clear(d);
+    }
+    tally_end(&t);
+    tally_end(&enough);
+}
+
+/* Next to the near plane a bias leads out of the range, where Direct3D holds it: that is never enough. */
+TEST(held) {
+    check_says(0, "Not proven", "bias -F d24 -m gl --api gl --units -1 --at .1 --depth-range .1:1");
+    check_says(0, "Not enough", "bias -F d24 -m gl --api gl --units -1 --at .1 --depth-range 0:.1");
+    check_says(0, "Enough", "bias -F d24 -m gl --api gl --units -1 --at .11 --depth-range .1:1");
+}
+
+/* ---- Refusals ---------------------------------------------------------------------------------------------------- */
+
+TEST(refusals) {
+    static const refused_row rows[] = {
+        {"--depth-range .5", "must be LO:HI", 2},
+        {"--depth-range .5:", "must be LO:HI", 2},
+        {"--depth-range .5:x", "must be LO:HI", 2},
+        {"--depth-range 0:1.1", "must be two window depths, each 0 or from 1e-6 to 1, and at least 1e-6 apart", 2},
+        {"--depth-range -1:1", "must be two window depths", 2},
+        {"--depth-range 0:0", "must be LO:HI", 2},
+        {"--depth-range .5:.5000001", "must be two window depths", 2},
+        {"--depth-range 5e-7:1", "must be two window depths", 2},
+        {"--depth-range 0:.5 -m log", "needs one of the mappings d3d, gl, reversed, gl-reversed, got log", 2},
+        {"--depth-range 0:.5 -m linear", "got linear, whose depth a shader writes", 2},
+        {"--depth-range 0:.5 -m d3d --model staged", "must be exact, float or auto", 2},
+        {"--depth-range 0:.5 --viewport 640x480", "conflicts with --viewport", 2},
+        {"--depth-range 0:.5 --link", "--depth-range: conflicts with --link", 2},
+        {"--depth-range 0:.5 --constants", "does not apply with --constants", 2},
+        {"--depth-range 1:0 --preset unity", "must not fall in d3d11", 2},
+        {"--depth-range 1:0 --platform chrome-d3d", "must not fall in webgpu", 2},
+    };
+    static const char *const lines[] = {"world",
+                                        "scene tests/models/street.obj",
+                                        "shadow",
+                                        "methods position",
+                                        "judge --pairs tests/pairs/reversed.csv",
+                                        "prepass"};
+    CHECK_REFUSED("table", rows);
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
+        check_says(2, "(d - LO)/(HI - LO)", "%s --depth-range 0:.5", lines[i]);
+    check_says(2, "must not fall in d3d12", "bias --api d3d12 --depth-range 1:0");
+    check_says(0, "", "bias --api vulkan --depth-range 1:0");
+    check_says(2, "conflicts with --rasterize", "zfight --rasterize --depth-range 0:.5");
+    check_says(2, "--depth-range: conflicts with --remedy", "bias --remedy ndc:1e-5 --depth-range 0:.5");
+    check_says(2, "--depth-range: conflicts with --from-origin", "budget --from-origin 1e4 --depth-range 0:.5");
+    check_says(0, "", "table -m log --depth-range 0:1 --viewport 640x480");
+}
+
+TEST(refused_files) {
+    static const struct {
+        const char *camera, *need, *said;
+    } rows[] = {
+        {"depth_range = \"0:1\";", "", "depth_range: must be (LO, HI)"},
+        {"depth_range = (0, 2);", "", "depth_range: must be (LO, HI)"},
+        {"depth_range = (0, 0);", "", "got 0 twice"},
+        {"depth_range = (0.5, 0.5000001);", "", "must be two window depths"},
+        {"depth_range = (0, 0.5); viewport = [64, 64]; fov = 60; raster = \"spec-d3d\";", "",
+         "conflicts with viewport"},
+        {"depth_range = (0, 0.5); from_origin = 1e5; scheme = \"split\";", "", "not with depth_range"},
+        {"depth_range = (1, 0);", "bias = { api = \"d3d11\"; units = 1; }; range = [1, 2];", "must not fall in d3d11"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const char *path =
+            scratch_text("refused.need",
+                         "cameras = { c = { near = 1; far = 9; mapping = \"d3d\"; format = \"d24\"; %s }; };\n"
+                         "requirements = { r = { camera = \"c\"; %s }; };\n",
+                         rows[i].camera, *rows[i].need != '\0' ? rows[i].need : "separation = 1; at = 2;");
+        check_says(2, rows[i].said, "check %s", path);
+    }
+}
