@@ -133,6 +133,22 @@ below_the_guarantee() { # every point of the census lies at or below the line th
 }
 check "a census in the model float, no point of it above the guarantee" below_the_guarantee
 
+pareto() { # pareto WANTED ARGUMENT...: all but the spread of the times, as "panel: series: label error" without digits
+    wanted=$1
+    shift
+    "$DEPTHPREC" plot pareto "$@" --csv >"$scratch/csv" || return
+    tr -d '\r' <"$scratch/csv" | sed 's/"\([^",]*\),\([^"]*\)"/\1\2/' |
+        awk -F , 'NR > 1 && $2 !~ /spread/ { print $1 ": " $2 ": " $5 " " $4 }' >"$scratch/rows"
+    cat "$scratch/rows"
+    grep -qx -e "$wanted" "$scratch/rows"
+}
+check "an error without bound is no height of a panel" pareto ": dominated: floor inf" encode -F unorm24
+check "nor is none a place on its axis" pareto ": on the Pareto front: same 0" encode -F fp32
+check "what moving the bytes takes is no error" pareto ": moving the same bytes:  " encode -F fp32
+check "of an orthographic camera" pareto "fp32 reversed: on the Pareto front: ortho-complement .*" linearize --ortho
+check "a family is shown where a method keeps its claim" pareto "normal fp32 reversed: radians: on the Pareto front: medium .*"
+check "each family" [ "$(sed -n 's/^\([a-z]*\) .*on the Pareto front.*/\1/p' "$scratch/rows" | sort -u | wc -l)" -eq 6 ]
+
 check "auto chooses the model of each curve" sh -c '
     "$1" plot interval --model auto -F unorm16,unorm24 -m d3d,log --json >"$2" &&
         jq -r ".panels[].series[].name" "$2" | sort -u | tr "\n" ";" | grep -qx "unorm16 d3d, exact;unorm16 log, exact;unorm24 d3d, float;unorm24 d3d, float, census;unorm24 d3d, float, lattice;unorm24 log, staged;"

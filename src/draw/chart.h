@@ -67,6 +67,7 @@ typedef struct chart_series {
     double certain_to;  /**< CHART_LINE: x where it ends, with a bar: beyond, nothing is certain; NaN: it does not */
     size_t count;
     double *x, *y;
+    double *said; /**< null, or what the data have in place of y, which is then no more than a place in the picture */
     char (*labels)[CHART_TEXT]; /**< CHART_POINTS: a label each, or null */
     bool unwritten;             /**< the labels are for the data alone */
 } chart_series;

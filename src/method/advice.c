@@ -30,6 +30,18 @@ const bench_result *advice_use(const method_family_row *family, const bench_resu
     return best;
 }
 
+size_t advice_case(const method_family_row *family, double znear, double zfar, size_t *which, bench_result *results) {
+    size_t count = 0;
+    for (size_t i = 0; i < family->case_count && advice_use(family, results, count) == NULL; i++) {
+        dp_setup setup;
+        if (method_setup(family, i, znear, zfar, false, &setup) != DP_OK)
+            continue;
+        count = bench_run(family, i, &setup, BENCH_REPETITIONS, results);
+        *which = i;
+    }
+    return count;
+}
+
 const bench_result *advice_next(const method_family_row *family, const bench_result *results, size_t count,
                                 const bench_result *use) {
     const bench_result *best = NULL;

@@ -6,6 +6,7 @@
 #include "core/elementary.h"
 #include "draw/notes.h"
 #include "draw/theme.h"
+#include "method/advice.h"
 #include "plot/figure.h"
 
 /* A log axis has no 0: what is exact is drawn here, and the legend says so. */
@@ -55,12 +56,22 @@ static double drawn_at(const timed *t, const chart_panel *panel) {
     return isinf(t->error) ? panel->y.hi : fmax(t->error, exact);
 }
 
+/* A series whose data have an error that the axis has not. */
+static chart_series *add_series(chart *out, chart_panel *panel, chart_kind kind, size_t count) {
+    chart_series *s = count > 0 ? chart_add_series(out, panel, kind, count) : NULL;
+    double *said = s != NULL ? chart_memory(out, count, sizeof *said) : NULL;
+    if (said == NULL)
+        return NULL;
+    s->said = said;
+    return s;
+}
+
 /* Those of which `bits` are `set`, along a line the fastest first; null where there are none, or a line has but one. */
 static chart_series *add_methods(const field *f, chart *out, chart_panel *panel, chart_kind kind, int bits, int set) {
     size_t count = 0;
     for (size_t i = 0; i < f->count; i++)
         count += (f->methods[i].is & bits) == set;
-    chart_series *s = count > (kind == CHART_LINE ? 1u : 0u) ? chart_add_series(out, panel, kind, count) : NULL;
+    chart_series *s = count > (kind == CHART_LINE ? 1u : 0u) ? add_series(out, panel, kind, count) : NULL;
     for (size_t i = 0, k = 0; i < f->count && s != NULL; i++) {
         const timed *t = &f->methods[i];
         if ((t->is & bits) != set)
@@ -69,9 +80,11 @@ static chart_series *add_methods(const field *f, chart *out, chart_panel *panel,
         for (; kind == CHART_LINE && at > 0 && s->x[at - 1] > t->of->ns; at--) {
             s->x[at] = s->x[at - 1];
             s->y[at] = s->y[at - 1];
+            s->said[at] = s->said[at - 1];
         }
         s->x[at] = t->of->ns;
         s->y[at] = drawn_at(t, panel);
+        s->said[at] = t->error;
         if (t->error < exact)
             snprintf(s->note, sizeof s->note, " (without error: at 10\u207b\u00b9\u2077)");
         else if (isinf(t->error))
@@ -94,7 +107,7 @@ static void add_bars(const field *f, chart *out, chart_panel *panel) {
     size_t count = 0;
     for (size_t i = 0; i < f->count; i++)
         count += isfinite(f->methods[i].of->bound) && isfinite(f->methods[i].error) ? 1 : 0;
-    chart_series *s = count > 0 ? chart_add_series(out, panel, CHART_BARS, 2 * count) : NULL;
+    chart_series *s = add_series(out, panel, CHART_BARS, 2 * count);
     if (s == NULL)
         return;
     s->style = (chart_style){2, 0, -1, false};
@@ -104,6 +117,8 @@ static void add_bars(const field *f, chart *out, chart_panel *panel) {
         if (!isfinite(t->of->bound) || isinf(t->error))
             continue;
         s->x[k] = s->x[k + 1] = t->of->ns;
+        s->said[k] = t->error;
+        s->said[k + 1] = t->of->bound;
         s->y[k++] = fmax(t->error, exact);
         s->y[k++] = t->of->bound;
     }
@@ -132,7 +147,7 @@ static void add_whiskers(const field *f, chart *out, chart_panel *panel) {
     size_t count = 0;
     for (size_t i = 0; i < f->count; i++)
         count += f->methods[i].of->spread > 0;
-    chart_series *s = count > 0 ? chart_add_series(out, panel, CHART_SPANS, 2 * count) : NULL;
+    chart_series *s = add_series(out, panel, CHART_SPANS, 2 * count);
     if (s == NULL)
         return;
     s->style = (chart_style){-1, 0, -1, true};
@@ -144,13 +159,14 @@ static void add_whiskers(const field *f, chart *out, chart_panel *panel) {
         s->x[k] = t->of->ns;
         s->x[k + 1] = t->of->ns * (1 + t->of->spread);
         s->y[k] = s->y[k + 1] = drawn_at(t, panel);
+        s->said[k] = s->said[k + 1] = t->error;
         k += 2;
     }
 }
 
 /* A method that waits for memory can be no faster than this line. */
 static void add_memory(const field *f, chart *out, chart_panel *panel) {
-    chart_series *s = f->limit > 0 ? chart_add_series(out, panel, CHART_LINE, 2) : NULL;
+    chart_series *s = add_series(out, panel, CHART_LINE, f->limit > 0 ? 2 : 0);
     if (s == NULL)
         return;
     s->style = (chart_style){-1, THEME_DOTTED, -1, true};
@@ -158,6 +174,7 @@ static void add_memory(const field *f, chart *out, chart_panel *panel) {
     s->x[0] = s->x[1] = f->limit;
     s->y[0] = panel->y.lo;
     s->y[1] = panel->y.hi;
+    s->said[0] = s->said[1] = (double)NAN; /* it is a time and no error */
 }
 
 /* Whole decades round the data, 1, 2 or 5 of one where they span less, with room for the names. */
@@ -219,13 +236,7 @@ static void name_panel(const method_family_row *family, size_t which, bool one_f
 }
 
 /* The panel of a case. @return null, or why there is none */
-static const char *build_case(const figure_request *request, const method_family_row *family, size_t which,
-                              bench_result *results, chart *out) {
-    const dp_spec *planes = &request->setups[0].spec;
-    dp_setup setup;
-    if (method_setup(family, which, planes->znear, planes->zfar, false, &setup) != DP_OK)
-        return NULL;
-    const size_t count = bench_run(family, which, &setup, BENCH_REPETITIONS, results);
+static const char *build_case(const method_family_row *family, const bench_result *results, size_t count, chart *out) {
     if (count == 0)
         return "no memory for the methods";
     if (add_family(family, results, count, out))
@@ -235,22 +246,26 @@ static const char *build_case(const figure_request *request, const method_family
     return out->title; /* which lasts as long as the chart */
 }
 
-/* Each family in its first case. */
+/* Each family in the first case in which a method keeps what it claims. */
 static const char *build_all(const figure_request *request, chart *out, bench_result *results) {
+    const dp_spec *planes = &request->setups[0].spec;
     const char *wrong = NULL;
     snprintf(out->subtitle, sizeof out->subtitle, "%s. Lower left is better", request->where);
     out->apart = true;
     for (size_t i = 0; i < METHOD_FAMILY_COUNT && wrong == NULL; i++) {
         const method_family_row *family = method_family_get(i);
-        wrong = build_case(request, family, 0, results, out);
+        size_t which = 0;
+        const size_t count = advice_case(family, planes->znear, planes->zfar, &which, results);
+        wrong = build_case(family, results, count, out);
         if (wrong == NULL)
-            name_panel(family, 0, false, &out->panels[out->panel_count - 1]);
+            name_panel(family, which, false, &out->panels[out->panel_count - 1]);
     }
     return wrong;
 }
 
 /* One family: a panel for each case that is asked. */
 const char *pareto_build(const figure_request *request, chart *out) {
+    const dp_spec *planes = &request->setups[0].spec;
     const method_family_row *family = request->family;
     char subtitle[2 * CHART_TEXT], cases[CHART_TEXT] = "";
     bench_result *results = chart_memory(out, BENCH_METHODS_MAX, sizeof *results);
@@ -262,9 +277,11 @@ const char *pareto_build(const figure_request *request, chart *out) {
     const bool several = (request->cases & (request->cases - 1)) != 0;
     out->apart = several;
     for (size_t i = 0; i < family->case_count && wrong == NULL; i++) {
-        if ((request->cases >> i & 1) == 0)
+        dp_setup setup;
+        if ((request->cases >> i & 1) == 0 ||
+            method_setup(family, i, planes->znear, planes->zfar, planes->ortho, &setup) != DP_OK)
             continue;
-        wrong = build_case(request, family, i, results, out);
+        wrong = build_case(family, results, bench_run(family, i, &setup, BENCH_REPETITIONS, results), out);
         if (!several)
             snprintf(cases, sizeof cases, "%s, ", family->cases[i].name);
         else if (wrong == NULL)

@@ -356,19 +356,13 @@ typedef struct all_families {
 /* @return false when out of memory */
 static bool advise(const all_families *all, const method_family_row *f, family_line *l) {
     bench_result results[BENCH_METHODS_MAX];
-    const bench_result *use = NULL, *next = NULL;
+    size_t which;
     *l = (family_line){.name = f->name, .summary = f->summary, .measure = f->measure, .methods = *f->method_count};
-    for (size_t which = 0; which < f->case_count && use == NULL; which++) {
-        dp_setup setup;
-        if (method_setup(f, which, all->o->camera.znear, all->o->camera.zfar, false, &setup) != DP_OK)
-            continue;
-        const size_t count = bench_run(f, which, &setup, BENCH_REPETITIONS, results);
-        if (count == 0)
-            return false;
-        use = advice_use(f, results, count);
-        next = advice_next(f, results, count, use);
-        l->of_case = f->cases[which].name;
-    }
+    const size_t count = advice_case(f, all->o->camera.znear, all->o->camera.zfar, &which, results);
+    if (count == 0)
+        return false;
+    const bench_result *use = advice_use(f, results, count), *next = advice_next(f, results, count, use);
+    l->of_case = f->cases[which].name;
     const double error = use != NULL ? measured_error(f, &use->measured) : (double)NAN;
     l->use = use != NULL ? use->row->name : NULL;
     l->next = next != NULL ? next->row->name : NULL;

@@ -198,9 +198,9 @@ static void subtitle_of(const plot_request *o, const figure_request *request, bo
     append(out, size, "%s%s", unit != NULL ? ", lengths in " : "", unit != NULL ? unit : "");
 }
 
-/* Each family in its first case. */
+/* Each family in a case of its own. */
 static int resolve_all(plotting *p) {
-    static const char *const of_one[] = {"format", "mapping", "mine", "device"};
+    static const char *const of_one[] = {"format", "mapping", "ortho", "mine", "device"};
     for (size_t i = 0; i < sizeof of_one / sizeof of_one[0]; i++)
         if (option_given(p->o->line, of_one[i]))
             return option_error(of_one[i], "needs one family: plot %s FAMILY", p->row->name);
@@ -239,7 +239,7 @@ static int resolve_methods(plotting *p) {
         status = mine_open(&p->judge, &p->asked, p->row->build == pareto_build, &p->mine);
     if (status != EXIT_FINE)
         return status;
-    snprintf(p->where, sizeof p->where, "near %s, far %s; %s",
+    snprintf(p->where, sizeof p->where, "%snear %s, far %s; %s", o->camera.ortho ? "orthographic, " : "",
              number_in(number_full(o->camera.znear), camera_unit(&o->camera)).text,
              number_in(number_full(o->camera.zfar), camera_unit(&o->camera)).text,
              p->mine != NULL ? mine_device(p->mine) : methods_machine(machine, sizeof machine));

@@ -80,9 +80,11 @@ static void *next_point(void *of, size_t at) {
         return NULL;
     if (s == NULL)
         p->point = (point){&m->x[i % columns], &m->y[i / columns], NULL, &m->value[i], NULL};
-    else
-        p->point = (point){&s->x[i], s->second ? NULL : &s->y[i], s->second ? &s->y[i] : NULL, NULL,
+    else {
+        double *y = s->said != NULL ? &s->said[i] : &s->y[i];
+        p->point = (point){&s->x[i], s->second ? NULL : y, s->second ? y : NULL, NULL,
                            s->labels != NULL ? s->labels[i] : NULL};
+    }
     return &p->point;
 }
 

@@ -21,7 +21,7 @@ static const option_use of_small[] = {OWN("near", DEFAULT("1")),
     OWN("far", .argument = "Z|inf[,Z...]", DEFAULT("20"), .parse = parse_fars),
     OWN("format", DEFAULT("unorm4,float3.3b5")), END};
 static const option_use of_methods[] = {TAKE("format"), TAKE("mapping"), END};
-static const option_use of_planes[] = {TAKE("near"), TAKE("far"), END};
+static const option_use of_planes[] = {TAKE("near"), TAKE("far"), TAKE("ortho"), END};
 static const option_use of_cameras[] = {TAKE("near"), FARS, OWN("format", ALSO(CAMERA_OF_RG)), TAKE("mapping"), END};
 static const option_use of_setups[] = {
     OWN("near", ALSO("with --ortho also 0 or negative; in linear01 1 by default")), TAKE("ortho"), OWN("tolerance",
