@@ -381,6 +381,7 @@ named() { # named NAME FORMULA ARGUMENT...: what judge calls the function of d w
     says "called $name of Unity" depthprec judge --pairs "$scratch/named" -n .3 -f 1000 -m d3d "$@"
 }
 check "judge names LinearDepthToEyeDepth" named LinearDepthToEyeDepth 'n + d * (f - n)' --ortho
+check "judge names LinearEyeDepth over far" named Linear01Depth 'z / f'
 check "judge names Linear01DepthFromNear" named Linear01DepthFromNear '(z - n) / (f - n)'
 
 # ---- Depth of DepthNormals beside depth buffers ----
@@ -411,6 +412,109 @@ as_packed() { # the bytes that texture packs are the codes that table prints
     [ "$(grep -c . "$scratch/codes")" -eq 16 ] && cmp "$scratch/packed" "$scratch/codes"
 }
 check "rg: its codes are the bytes that texture packs" as_packed
+
+# ---- Places, normals and effects, whose numbers awk computes ----
+
+walls() { # walls ARGUMENT...: five walls at 1, 5, 9, 13 and 17, two pixels high each, of a camera of near .3 and far 20; a number a line
+    depthprec texture --synthetic steps --parameter even=1,count=5,to=17 -n .3 -f 20 --size 5x2 -F fp32 -m d3d "$@" \
+        -o "$scratch/walls.npy" -q && od -An -v -tf4 -w4 -j128 "$scratch/walls.npy" >"$scratch/walls"
+}
+each() { # each N FORMULA: N numbers a pixel; want[0], want[1], ... of column, row (0 is the upper) and depth z
+    awk -v each="$1" "function saturate(x) { return x < 0 ? 0 : x > 1 ? 1 : x } function abs(x) { return x < 0 ? -x : x }
+        { at = int((NR - 1) / each); k = (NR - 1) % each; column = at % 5; row = int(at / 5); z = 1 + 4 * column
+          tangent = sin(atan2(0, -1) / 6) / cos(atan2(0, -1) / 6); aspect = 2.5; u = (2 * column - 4) / 5; v = (1 - 2 * row) / 2
+          $2
+          if (abs(\$1 - want[k]) > 1e-5 * (1 + abs(want[k]))) { print NR, \$1, want[k]; bad = 1 } }
+        END { exit bad || NR != 10 * each }" "$scratch/walls"
+}
+# The picture is 2.5 times as wide as high; x n/z is the place on the near plane. The upper row is that of y > 0.
+places() { # places METHOD ARGUMENT...
+    method=$1
+    shift
+    walls --product "position:$method" "$@" && each 3 'want[0] = u * tangent * aspect * z; want[1] = v * tangent * z; want[2] = z'
+}
+check "places by the inverse view-projection" places matrix
+check "places by rays through the corners" places rays
+check "places by the top left corner and the extents" places extents
+straight() { walls --product position:extents --ortho=5 && each 3 'want[0] = u * 5 * aspect; want[1] = v * 5; want[2] = z'; }
+check "places of an orthographic camera" straight
+half() { # what half3 returns has 11 bits, and no fewer: the places of binary32 have more
+    walls --product position:extents-half && awk '
+        { x = $1 < 0 ? -$1 : $1; if (x == 0) next; while (x < 1024) x *= 2; while (x >= 2048) x /= 2; if ((x - int(x + 0.5)) ^ 2 > 1e-8) { print; bad = 1 } }
+        END { exit bad || NR != 30 }' "$scratch/walls"
+}
+check "places that half3 returns" half
+image_effect() { # image_effect NAME PARAMETERS FORMULA
+    walls --product "effect:$1" --parameter "$2" && each 1 "want[0] = $3"
+}
+check "intersection highlight" image_effect intersection reference=6,half-width=5 'saturate(abs(6 - z) / 5)'
+check "force field" image_effect force-field reference=6,power=.2,facing=.75,rim-power=.5 \
+    '(1 - (z - 6)) * .2 > 1 - .75 * .5 ? (1 - (z - 6)) * .2 : 1 - .75 * .5'
+check "global fog" image_effect fog density=1.5 'saturate(z / 20 * 1.5)'
+check "scan line" image_effect scan-line reference01=.3,half-width=.4 'saturate(abs(.3 - z / 20) / .4)'
+check "flooding" image_effect water-line level=2 '(v * tangent * z < 2)'
+check "vertical fog" image_effect height-fog start=-5,end=5,density=1.2 'saturate((v * tangent * z + 5) / 10 * 1.2)'
+check "a soft particle" image_effect soft-particles reference=4,fade-distance=6 'saturate((z - 4) / 6)'
+bands() { # z^2 (f - n)/(n f 2^24), a step of depth, is .5/255, half-width .5 over the levels of 8 bits; then half a step is
+    depthprec texture --product effect:intersection -F d24 -m d3d -n .1 -f 1000 --parameter half-width=.5 |
+        sed -n 's/^Up to z = \([0-9.]*\).*/\1/p' | awk '
+        { n = 0.1; f = 1000; z = sqrt(NR * 0.5 / 255 * n * f / (f - n) * 16777216); bad += $1 < 0.999 * z || $1 > 1.001 * z }
+        END { exit bad || NR != 2 }'
+}
+check "from where on an intersection highlight shows bands" bands
+# Five walls that face the camera, seven pixels wide. low is wrong in the quads of 2 x 2 pixels in which an edge lies, after 7
+# and 21 columns; medium, which takes the farther of the pixels two apart, in the two columns before each edge; high nowhere.
+wrong() { # wrong METHOD COLUMNS: where its normals turn, from 0
+    depthprec texture --synthetic steps --parameter even=1,count=5,to=17 -n .3 -f 20 --size 35x20 -F fp32 -m d3d \
+        --product "normal:$1" -o "$scratch/normals.npy" -q || return 1
+    od -An -v -tf4 -w12 -j128 "$scratch/normals.npy" |
+        awk '$3 * $3 < 0.9998 { wrong[(NR - 1) % 35]++ } END { for (i = 0; i < 35; i++) if (wrong[i]) printf "%d ", i }' >"$scratch/columns"
+    cat "$scratch/columns"
+    [ "$(cat "$scratch/columns")" = "$2" ]
+}
+check "low is wrong in the quads of an edge" wrong low "6 7 20 21 "
+check "medium looks at pixels two apart" wrong medium "5 6 12 13 19 20 26 27 "
+check "high is right at edges" wrong high ""
+# At the outline of a sphere the mean error falls from each to the next.
+outline() {
+    depthprec plot normals --csv >"$scratch/csv" && tr -d '\r' <"$scratch/csv" | awk -F, '
+        /sphere/ { low += $3; medium += $4; high += $5; n++ } END { exit !(n > 9 && low > 2 * medium && medium > 2 * high) }'
+}
+check "at an outline medium is better than low, and high than medium" outline
+timed() { # timed FAMILY METHOD...: each has a time, which no test judges, and an error
+    depthprec methods "$1" --full --json >"$scratch/timed" || return 1
+    shift
+    for method; do
+        tr '{' '\n' <"$scratch/timed" | grep -qE "^\"name\":\"$method\",\"ns\":[0-9.e+-]+,.*\"relative\":[0-9.e+-]+," || return 1
+    done
+}
+check "what low, medium and high cost" timed normal low medium high
+check "what rays and the matrix cost" timed position rays matrix
+codes() { # rounded to 65535 and 16777215 steps
+    rows 'n = 0.3; f = 1000; steps = a["format"] == "unorm16" ? 65535 : 16777215
+        want["code"] = int(steps * f / (f - n) * (1 - n / a["z"]) + 0.5)' depthprec table -n .3 -f 1000 -m d3d -F d16,d24 --at 1,10,100,500
+}
+check "codes of 16 and of 24 bits" codes
+check "orthographic NDC and window depth" of 'want["ndc"] = want["window"] = (z - n) / (f - n); want["eye"] = z' -m d3d --ortho
+check "orthographic, reversed" of 'want["ndc"] = want["window"] = (f - z) / (f - n); want["eye"] = z' -m reversed --ortho
+check "orthographic NDC of OpenGL" of 'want["ndc"] = 2 * (z - n) / (f - n) - 1; want["window"] = (z - n) / (f - n)' -m gl --ortho
+packed() { # the depths of walls, and the normal of a plane that tilts by 30 degrees, n/(n.z + 1)/1.7777
+    walls --product pack:depth-normals && od -An -v -tu1 -w4 -j128 "$scratch/walls.npy" | awk '
+        { z = (1 + 4 * ((NR - 1) % 5)) / 20; k = int(255 * z); code = 255 * k + int(255 * (255 * z - k) + 0.5)
+          if ((255 * $3 + $4 - code) ^ 2 > 1) { print; bad = 1 } } END { exit bad || NR != 10 }' &&
+        depthprec texture --synthetic plane --parameter tilt=30 --size 2x2 -F fp32 -m d3d --product pack:depth-normals \
+            -o "$scratch/tilted.npy" -q && od -An -v -tu1 -w4 -j128 "$scratch/tilted.npy" | awk '
+        { up = int(255 * (0.5 + 0.5 * 0.5 / (1 + sqrt(0.75)) / 1.7777) + 0.5); if ($1 != 128 || $2 != up) { print $2, up; bad = 1 } }
+        END { exit bad || NR != 4 }'
+}
+check "EncodeDepthNormal: EncodeViewNormalStereo in xy, EncodeFloatRG in zw" packed
+unpacked() { # read back: 2 p/(1 + p p), of which a byte leaves 1.13 degrees
+    depthprec texture "$scratch/tilted.npy" --packing depth-normals --product packed-normal -o "$scratch/read.npy" -q &&
+        od -An -v -tf4 -w12 -j128 "$scratch/read.npy" | awk '
+        { x = (2 * 128 / 255 - 1) * 1.7777; y = (2 * 147 / 255 - 1) * 1.7777; g = 2 / (1 + x * x + y * y)
+          if (($1 - g * x) ^ 2 + ($2 - g * y) ^ 2 + ($3 * $3 - (g - 1) ^ 2) ^ 2 > 1e-11) { print; bad = 1 } } END { exit bad || NR != 4 }'
+}
+check "DecodeViewNormalStereo" unpacked
 
 # ---- All of them ----
 

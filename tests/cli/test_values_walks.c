@@ -31,7 +31,7 @@ static size_t want_times(values *v, size_t series, const char *name, int front, 
         const bench_result *r = &timed[order != NULL ? order[i] : i];
         if (front >= 0 && r->front != (front == 1))
             continue;
-        want_point(v, 0, series, n++, "time", r->ns, "error", fmax(r->measured.worst.relative, 1e-17));
+        want_point(v, 0, series, n++, "time", r->ns, "error", r->measured.worst.relative);
         if (front >= 0)
             want_text(v, "label", r->row->name);
     }
@@ -47,7 +47,7 @@ static size_t want_bars(values *v, size_t series, size_t count) {
         const bench_result *r = &timed[i];
         if (isnan(r->bound))
             continue;
-        want_point(v, 0, series, n++, "time", r->ns, "error", fmax(r->measured.worst.relative, 1e-17));
+        want_point(v, 0, series, n++, "time", r->ns, "error", r->measured.worst.relative);
         want_point(v, 0, series, n++, "time", r->ns, "error", r->bound);
     }
     values_under(v, "panels[0].series[%zu].", series);
@@ -56,21 +56,17 @@ static size_t want_bars(values *v, size_t series, size_t count) {
 }
 
 /* From the least time to that of a quarter of the turns; then the line of moving bytes, over the whole axis. */
-static void want_spread(values *v, size_t series, size_t count, const json_t *root) {
+static void want_spread(values *v, size_t series, size_t count) {
     for (size_t i = 0; i < count; i++) {
         const bench_result *r = &timed[i];
-        const double error = fmax(r->measured.worst.relative, 1e-17);
+        const double error = r->measured.worst.relative;
         want_point(v, 0, series, 2 * i, "time", r->ns, "error", error);
         want_point(v, 0, series, 2 * i + 1, "time", r->ns * (1 + r->spread), "error", error);
     }
     values_under(v, "panels[0].series[%zu].", series);
     want_text(v, "name", "spread of the times");
-    for (size_t k = 0; k < 2; k++) {
-        const double end = number_at(root, "panels[0].series[%zu].points[%zu].error", series + 1, k);
-        want_point(v, 0, series + 1, k, "time", timed[0].limit, "error", end);
-        for (size_t i = 0; i < count; i++)
-            assert_true(k == 0 ? end < timed[i].measured.worst.relative : end > timed[i].measured.worst.relative);
-    }
+    for (size_t k = 0; k < 2; k++) /* a time and no error */
+        want_point(v, 0, series + 1, k, "time", timed[0].limit, "error", (double)NAN);
     values_under(v, "panels[0].series[%zu].", series + 1);
     want_text(v, "name", "moving the same bytes");
 }
@@ -102,7 +98,7 @@ TEST(pareto) {
     series = want_bars(&v, series, count);
     series = want_times(&v, series, "dominated", 0, NULL, count);
     series = want_times(&v, series, "on the Pareto front", 1, NULL, count);
-    want_spread(&v, series, count, root);
+    want_spread(&v, series, count);
     check_json_text(&v, text);
     json_decref(root);
     free(text);
