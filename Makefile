@@ -268,7 +268,7 @@ WEB_NOT := cli/words cli/questions solve/cmd_check/options solve/cmd_solve/prese
     judge/listing judge/read_pairs judge/written judge/cmd_judge/shader probe/compile probe/opengl probe/probe probe/vulkan \
     probe/vulkan_compute quantity/cmd/preset_run quantity/cmd_table/constants quantity/cmd_table/in_preset quantity/cmd_table/levels report/output_file report/terminal solve/camera \
     solve/check solve/figure_needs solve/reader solve/requirement solve/setting solve/view solve/cmd_check/check_report solve/cmd_check/command \
-    web/plain world/figure world/cmd_world/command zfight/figure
+    raster/resolve web/plain world/figure world/cmd_world/command zfight/figure zfight/cmd_prepass/stored zfight/cmd_prepass/stored_options
 WEB_SOURCES := $(sort $(filter-out $(patsubst %,src/%.c,$(patsubst %,%/%,$(WEB_LESS)) $(WEB_NOT)),$(CORE) $(ROOMS) $(wildcard src/web/*.c)) \
     $(wildcard $(patsubst %,src/*/cmd_%/options.c,bias budget judge list plot prepass probe solve table texture zfight)) $(patsubst %,src/%.c,$(WEB_FROM)))
 

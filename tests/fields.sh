@@ -40,6 +40,7 @@ all_named zfight -n 1 -f 1.5 -F unorm16 --sample 100 --separation 0.01
 all_named zfight -n 1 -f 1.5 -F unorm16 -m d3d --rasterize --sample 10
 all_named shadow --light-box 9x9x9 --size 256 --rasterize
 all_named prepass --against fma --sample 100
+all_named prepass --prepass-format d16
 all_named convert unorm10 fp32 unorm10
 all_named convert unorm10 fp32 unorm10 --code 1,5
 "$DEPTHPREC" judge --pairs-for 20 | awk 'NR > 1 { print $1 "," 1 / (20 - 10 * $1) }' >"$scratch/pairs.csv"

@@ -13,8 +13,8 @@ static const command_row *const commands[] = {COMMANDS(COMMAND_LISTED)};
 /* In the order in which their headings follow one another; tables that are not named stand behind them. */
 #define TABLES(one)                                                                                                    \
     one(camera) one(range) one(table) one(solve) one(origin) one(scene_eye) one(view) one(shadow) one(bias)            \
-        one(zfight) one(prepass) one(convert) one(scene) one(probe) one(code) one(judge) one(texture) one(figure)      \
-            one(output)
+        one(zfight) one(prepass) one(stored) one(convert) one(scene) one(probe) one(code) one(judge) one(texture)      \
+            one(figure) one(output)
 #define TABLE_DECLARED(name) extern const option_table name##_options;
 #define TABLE_LISTED(name)   &name##_options,
 TABLES(TABLE_DECLARED)

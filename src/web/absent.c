@@ -31,6 +31,7 @@
 #include "texture/cmd_texture/request.h"
 #include "texture/device.h"
 #include "texture/units.h"
+#include "zfight/cmd_prepass/request.h"
 
 static int absent(const asked_line *line) {
     return usage_error("%s is not in the page: the program has it", line->command->name);
@@ -58,7 +59,8 @@ ABSENT_OPTIONS(scene)
 ABSENT_OPTIONS(scene_eye)
 ABSENT_OPTIONS(shadow)
 ABSENT_OPTIONS(shadow_size)
-const option_use scene_model[] = {END}, shadow_cascade_uses[] = {END}, shadow_map_uses[] = {END};
+ABSENT_OPTIONS(stored)
+const option_use scene_model[] = {END}, stored_uses[] = {END}, shadow_cascade_uses[] = {END}, shadow_map_uses[] = {END};
 
 ABSENT_COMMAND(check)
 ABSENT_COMMAND(code)
@@ -137,6 +139,10 @@ bool levels_wanted(const table_request *o) {
 
 int levels_write(const table_request *o) {
     return absent(o->line);
+}
+
+int prepass_stored(const prepass_request *o) {
+    return absent(o->camera.line);
 }
 
 int link_write(const asked_line *line) {

@@ -148,6 +148,7 @@ static const struct {
     {BIT(table) | BIT(bias) | BIT(shadow), IDS("range"), NULL, NULL, ""}, /* given, more is said of it */
     {BIT(table) | BIT(budget) | BIT(bias) | BIT(solve), IDS("viewport"), NULL, NULL, ""},
     {BIT(world), IDS("from-origin"), NULL, NULL, ""},
+    {BIT(prepass), IDS("prepass-format", "resolve", "half"), NULL, NULL, ""},
 };
 
 /* The default that a command takes where help spells it out; of two rows the first holds. */

@@ -763,6 +763,18 @@ TEST(test_own) {
                 ASKED(prepass, o)->against[1] == vertex_program_get(0));
     assert_true(vertex_program_get(ASKED(prepass, o)->against_count - 1) != NULL &&
                 vertex_program_get(ASKED(prepass, o)->against_count) == NULL);
+    const stored_asked *stored;
+    assert_int_equal(parse(&o, "prepass", "prepass-format", "D16,unorm16,depth24plus", line), EXIT_FINE);
+    stored = &ASKED(prepass, o)->stored;
+    assert_true(stored->count == 3 && stored->cases[0].format.bits == 16 && stored->cases[2].way == NULL);
+    assert_string_equal(stored->cases[1].name, "unorm24");
+    assert_int_equal(parse(&o, "prepass", "resolve", "max:16,all", line), EXIT_FINE);
+    stored = &ASKED(prepass, o)->stored;
+    assert_true(stored->count == 5 && stored->cases[0].samples == 16 && stored->cases[1].samples == 4 &&
+                stored->cases[4].way == resolve_sampled_find("sample0"));
+    assert_int_equal(parse(&o, "prepass", "half", "Corner,one", line), EXIT_FINE);
+    stored = &ASKED(prepass, o)->stored;
+    assert_true(stored->count == 1 && stored->cases[0].way == resolve_halved_find("one"));
     assert_int_equal(parse(&o, "scene m.obj", "also", "Thin,facing", line), EXIT_FINE);
     assert_int_equal(ASKED(scene, o)->scene.filters_off, 1U << FINDER_THIN | 1U << FINDER_FACING);
     assert_int_equal(parse(&o, "scene m.obj", "also", "all", line), EXIT_FINE);

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Every value that prepass prints, against a comparison of the same vertices. */
+/* Every value that prepass prints, against a comparison of the same vertices, or of what is stored. */
 #include "bias/cmd_bias/call.h"
+#include "convert/again.h"
 #include "named.h"
 #include "printed.h"
+#include "raster/resolve.h"
 #include "raster/vertex_compare.h"
 
 static const char *const lines[] = {
@@ -115,6 +117,151 @@ TEST(each_number) {
                               "hi [scene] = ^hi, from_origin [scene] = ^from_origin, drawn = ^drawn, seed = ^seed, "
                               "against, vertices, differ, percentile_99, most, most_z [scene], bias");
         check_page(&v, lines[i], setups);
+        values_free(&v);
+    }
+}
+
+/* ---- What else is stored ----------------------------------------------------------------------------------------- */
+
+/* A line, and the cases that it names. */
+static const struct {
+    const char *line;
+    const char *cases[6];
+    int samples; /* 0: half the size, or formats */
+} stored[] = {
+    {"prepass -n 0.1 -f 1000 -F fp32,unorm16 -m d3d,reversed -q --range 0.3:800 --prepass-format unorm16,fp16,fp32",
+     {"unorm16", "fp16", "fp32"},
+     0},
+    {"prepass -n 1 -f 50 -F unorm16 -m gl --rounding zero -q --range 1:50 --unit cm --prepass-format unorm10,d16",
+     {"unorm10", "unorm16"},
+     0},
+    {"prepass -n 0.1 -f 1000 -F fp32,unorm24,fp16 -m d3d,reversed -q --range 0.1:1000 --resolve all:8",
+     {"min:8", "max:8", "average:8", "sample0:8"},
+     8},
+    {"prepass -n -5 -f 60 -F unorm16 -m gl-reversed --ortho -q --range -5:60 --half one,CENTRE,min,point",
+     {"one", "centre", "min"},
+     0},
+};
+
+typedef struct stored_need {
+    again_found found;
+    double pixels;
+    bool counted;
+} stored_need;
+
+static stored_need need_of(const dp_setup *setup, const char *name, int samples, const double range[2]) {
+    const double a = dp_window(setup, range[0]), b = dp_window(setup, range[1]), lo = fmin(a, b), hi = fmax(a, b);
+    char way[32];
+    dp_format f[2];
+    snprintf(way, sizeof way, "%.*s", (int)strcspn(name, ":"), name);
+    const resolve_way *of = samples > 0 ? resolve_sampled_find(way) : resolve_halved_find(way);
+    if (of == NULL) {
+        assert_true(dp_format_parse(name, f) == 1);
+        again_request q = {.stored = f[0],
+                           .drawn = setup->spec.format,
+                           .rounding = setup->spec.rounding,
+                           .lo = (float)lo,
+                           .hi = (float)hi,
+                           .reversed = setup->reversed};
+        q.lo = (double)q.lo > lo ? nextafterf(q.lo, 0) : q.lo;
+        q.hi = (double)q.hi < hi ? nextafterf(q.hi, 1) : q.hi;
+        return (stored_need){again_all(&q), 0, true};
+    }
+    stored_need out = {.counted = false};
+    for (int i = 0; i < 2; i++) {
+        const double depth = fmax(i == 0 ? lo : hi, 0x1p-102);
+        const resolve_need n =
+            resolve_needs(of, samples, &setup->spec.format, setup->spec.rounding, setup->reversed, depth);
+        again_take(&setup->spec.format, (again_gap){n.window, depth}, &out.found);
+        out.pixels = n.pixels;
+    }
+    return out;
+}
+
+static double units_needed(const dp_setup *setup, const bias_api *api, const again_found *f) {
+    const double units = fmax(bias_units(api, &setup->spec.format, f->widest.depth, f->widest.bias),
+                              bias_units(api, &setup->spec.format, f->steepest.depth, f->steepest.bias));
+    return isinf(units) ? NAN : setup->reversed ? units : -units;
+}
+
+static double counted(const stored_need *n, double x) {
+    return n->counted ? x : NAN;
+}
+
+static void want_stored(values *v, const dp_setup *setup, const char *name, const stored_need *n, double hi, size_t i,
+                        size_t k) {
+    const again_found *f = &n->found;
+    const bias_state state = {.api = bias_api_find("d3d9"), .units = f->widest.bias * (setup->reversed ? 1 : -1)};
+    values_under(v, "setups[%zu].cases[%zu].", i, k);
+    want(v, "stored=%s equal=%d passes=%d", name, n->counted && f->unequal == 0, f->widest.bias == 0 && n->pixels == 0);
+    want(v, "codes=%f unequal=%f failing=%f most=%f", counted(n, (double)f->codes), counted(n, (double)f->unequal),
+         counted(n, (double)f->fails), counted(n, f->most));
+    want(v, "most_z=%f", n->counted && f->most > 0 ? dp_eye(setup, f->most_at, 1 - f->most_at) : NAN);
+    want(v, "pixels=%f bias=%f moves=%f", n->pixels, f->widest.bias, fabs(bias_at(setup, &state, 0, hi).shift));
+    for (size_t a = 0; bias_api_get(a) != NULL; a++) {
+        const double units = units_needed(setup, bias_api_get(a), f);
+        values_under(v, "setups[%zu].cases[%zu].bias_units[%zu].", i, k, a);
+        want(v, "api=%s units=%f factor=%f", bias_api_get(a)->name, units,
+             isnan(units)      ? NAN
+             : setup->reversed ? n->pixels
+                               : -n->pixels);
+    }
+}
+
+/* The calls below the first table suffice for each of its lines. */
+static void check_calls(const char *text, const dp_setup *setup, const stored_need *needs, size_t count) {
+    for (size_t a = 0; bias_api_get(a) != NULL; a++) {
+        double units = 0, factor = 0;
+        char call[256];
+        for (size_t k = 0; k < count; k++) {
+            const double one = units_needed(setup, bias_api_get(a), &needs[k].found);
+            units = !(fabs(one) <= fabs(units)) ? one : units;
+            factor = fmax(factor, needs[k].pixels);
+        }
+        factor *= setup->reversed ? 1 : -1;
+        snprintf(call, sizeof call, "  %-14s%s", bias_api_get(a)->name,
+                 isnan(units) ? "no bias suffices" : bias_call(bias_api_get(a), units, factor + 0.0).text);
+        call[strcspn(call, ",")] = '\0'; /* the line may break behind that */
+        if (strstr(text, call) == NULL)
+            fail_msg("no line '%s' in %s", call, text);
+    }
+}
+
+TEST(each_number_of_what_is_stored) {
+    for (size_t i = 0; i < sizeof stored / sizeof stored[0]; i++) {
+        const char *line = stored[i].line;
+        values v = values_of(line);
+        dp_setup setups[SETUPS_MAX];
+        const size_t n = setups_of(line, DP_MODEL_FLOAT, setups);
+        double range[2];
+        numbers_behind(line, "--range", range, 2);
+        stored_need needs[SETUPS_MAX][6];
+        size_t cases = 0;
+        for (size_t s = 0; s < n; s++) {
+            for (cases = 0; cases < 6 && stored[i].cases[cases] != NULL; cases++) {
+                needs[s][cases] = need_of(&setups[s], stored[i].cases[cases], stored[i].samples, range);
+                want_stored(&v, &setups[s], stored[i].cases[cases], &needs[s][cases], range[1], s, cases);
+            }
+            values_under(&v, "setups[%zu].", s);
+            want_setup(&v, &setups[s]);
+            want(&v, "lo=%f hi=%f test=%s", range[0], range[1], setups[s].reversed ? "GEQUAL" : "LEQUAL");
+        }
+        check_forms(&v, 0, line, "setups[].cases[]",
+                    SETUP_CSV
+                    "lo [scene] = ^lo, hi [scene] = ^hi, test = ^test, stored, equal, passes, codes, unequal, "
+                    "failing, most, most_z [scene], pixels, bias, moves [scene]");
+        char *text = output_of(0, line, "");
+        for (size_t k = 0; k < cases; k++) {
+            char label[64]; /* with the verdicts */
+            values_under(&v, "setups[0].cases[%zu].", k);
+            const stored_need *need = &needs[0][k];
+            snprintf(label, sizeof label, "%-14s%7s%7s ", stored[i].cases[k],
+                     need->counted && need->found.unequal == 0 ? "holds" : "fails",
+                     need->found.widest.bias == 0 && need->pixels == 0 ? "holds" : "fails");
+            check_line(&v, text, label, "failing:6, most:6, pixels:6, bias:6, moves:6");
+        }
+        check_calls(text, &setups[0], needs[0], cases);
+        free(text);
         values_free(&v);
     }
 }

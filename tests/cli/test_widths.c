@@ -44,6 +44,8 @@ static const char *const lines[] = {
     "zfight -F d24 -m gl --separation 0.01 --range 10:10.5",
     "zfight -f inf -F fp32 -m reversed --range 0.1:1e9 --sample 1000",
     "prepass -F d24 -m d3d --sample 1000",
+    "prepass -F fp32 -m d3d --prepass-format d16,float4.20b15",
+    "prepass -F d24 -m d3d --resolve all:16",
     "bias --api gl -F d24 -m gl --units -1 --at 1,10,100",
     "bias --api all --separation 0.02 --at 300",
     "bias --api d3d12,vulkan --separation 0.02 --at 300 -F d24 -m d3d",

@@ -212,6 +212,8 @@ static const column columns[] = {{LIST("setups", setup_report, next_setup), .hea
 
 int cmd_prepass(void *request) {
     const prepass_request *o = request;
+    if (o->stored.count > 0)
+        return prepass_stored(o);
     prepass a = {.o = o,
                  .each = {.camera = &o->camera, .how = &o->out},
                  .program = o->program->name,

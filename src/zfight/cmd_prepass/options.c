@@ -59,11 +59,14 @@ static const option_use uses[] = {
     OWN("format", DEFAULT("fp32")), OWN("mapping", HELP(CAMERA_PERSPECTIVE), DEFAULT("reversed")),
     OWN("arith", ALSO("by default that of --platform where known")),
     OWN("range", HELP("the eye depths of the vertices"), WITHOUT("near to far; needed where far is inf")),
-    TAKE("threads"), TAKE("link"),
+    TAKE("threads"), TAKE("link"), GROUP_OF(stored_uses),
     GROUP_OF(camera_projected), GROUP_OF(output_written), END};
 /* clang-format on */
 
-static const option_place places[] = {CAMERA_PLACES(prepass_request), OWN_PLACE(prepass_options), {.table = NULL}};
+static const option_place places[] = {CAMERA_PLACES(prepass_request),
+                                      OWN_PLACE(prepass_options),
+                                      PLACE(prepass_request, stored, stored_options),
+                                      {.table = NULL}};
 
 /* clang-format off */
 const command_row command_prepass = {

@@ -5,6 +5,7 @@
 
 #include "cli/output/output.h"
 #include "raster/vertex_compare.h"
+#include "zfight/cmd_prepass/stored.h"
 
 /** Vertices, and the vertex programs that place them. */
 typedef struct prepass_request {
@@ -15,6 +16,7 @@ typedef struct prepass_request {
     size_t against_count;
     const vertex_program *program; /**< what they are compared with */
     unsigned vertices;             /**< how they are drawn: a vertex_spread */
+    stored_asked stored;           /**< in place of vertices, where there is a case */
 } prepass_request;
 
 extern const option_table prepass_options;
