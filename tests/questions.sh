@@ -238,6 +238,15 @@ check "32. half a step" agrees '<=' 'd24 / 2 - 1e-16' 'd24 / 2 + 1e-16'
 check "33. EQUAL behind another order" answers 0 \
     'depthprec prepass -F d24 -m d3d --program once --against separate --sample 100000' 'EQUAL'
 check "33. not safe: most vertices differ, by more than a code" agrees ' separate' 50 100
+check "33. a prepass in D16" answers 0 'depthprec prepass --prepass-format d16 -F fp32 -m reversed --range 0.1:100' \
+    'GEQUAL is safe if'
+# Half a code of D16, and where a binary32 number is no middle of two codes up to a step more.
+check "33. half a code" agrees 'the camera by' '1 / 131070 - 2 ^ -25' '1 / 131070 + 2 ^ -24'
+check "33. samples resolved" answers 0 'depthprec prepass --resolve min:4 -F d24 -m d3d' 'LEQUAL is safe if'
+# The farthest of four samples is (2, 6)/16 from the centre.
+check "33. half a pixel" agrees 'changes over' '8 / 16' '8 / 16'
+check "33. half the resolution" answers 0 'depthprec prepass --half centre,one -F d24 -m d3d' 'LEQUAL is safe if'
+check "33. two pixels" agrees 'changes over' 2 2
 check "33. a copy of D24 read back by 2^24" answers 0 'depthprec convert d24 d32f d24 --write cut:2^24' \
     'EQUAL     fails'
 # c + c/(2^24 - 1), in floats 2^-24 apart from 2^23 on: each of that half is rounded up.

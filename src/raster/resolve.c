@@ -20,7 +20,7 @@ static const resolve_way of_halves[] = {
     {"max", NULL, "the greatest", NULL, RESOLVE_GREATEST, 4},
 };
 
-/* The standard positions, D3D 11.3 functional specification 19.2.4, from the centre. */
+/* From the centre: Vulkan, Multisampling, Standard sample locations; D3D11_STANDARD_MULTISAMPLE_PATTERN is the same. */
 static const struct {
     int count;
     bool halved;

@@ -172,10 +172,10 @@ static const option_use uses[] = {
 
 static const option_rule rules[] = {
     CONFLICTS("remedy", "api units factor clamp slope viewport raster rasterize", ", which are of a bias"),
+    CONFLICTS("csv", "rasterize", ", which text and JSON tell of"),
     NEEDS("check", "units remedy", ": it is a bias that is judged"),
     NEEDS("rasterize", "units", ": it is a bias that is drawn"),
     NEEDS("render", "rasterize", NULL),
-    CONFLICTS("csv", "rasterize", ", which text and JSON tell of"),
     {.option = NULL}};
 /* clang-format on */
 
