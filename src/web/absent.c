@@ -59,8 +59,22 @@ ABSENT_OPTIONS(scene)
 ABSENT_OPTIONS(scene_eye)
 ABSENT_OPTIONS(shadow)
 ABSENT_OPTIONS(shadow_size)
-ABSENT_OPTIONS(stored)
-const option_use scene_model[] = {END}, stored_uses[] = {END}, shadow_cascade_uses[] = {END}, shadow_map_uses[] = {END};
+const option_use scene_model[] = {END}, shadow_cascade_uses[] = {END}, shadow_map_uses[] = {END};
+
+/* Options of a command that is there. */
+static int absent_option(asked_line *line, const option_row *row, const char *value, void *group) {
+    (void)value;
+    (void)group;
+    (void)line;
+    return option_refuse(row, "is not in the page: the program has it");
+}
+
+#define ABSENT_OPTION(of)                                                                                              \
+    { .name = (of), .argument = "X", .help = "", .parse = absent_option }
+static const option_row stored_rows[] = {ABSENT_OPTION("prepass-format"), ABSENT_OPTION("resolve"),
+                                         ABSENT_OPTION("half"), END};
+const option_table stored_options = {.rows = stored_rows};
+const option_use stored_uses[] = {ROWS(stored_rows), END};
 
 ABSENT_COMMAND(check)
 ABSENT_COMMAND(code)
