@@ -293,11 +293,34 @@ CLONES static void unorm_numerators(const dp_format *format, const uint32_t *res
     }
 }
 
+/* As many codes on either side, which all of a binade have in common. */
+static void around_numerators(const dp_format *format, const grain *g, const uint32_t *codes, size_t count,
+                              numerators *n) {
+    const double most = format->code_max;
+    double around = 0;
+    uint64_t last = UINT64_MAX;
+    for (size_t i = 0; i < count; i++) {
+        const double code = codes[i] <= format->code_max ? codes[i] : 0, v = code / most;
+        const uint64_t binade = dp_bits64(v) >> 52;
+        if (binade != last)
+            around = grain_quotient_codes(g, format, v);
+        last = binade;
+        n->own[i] = 2 * code;
+        n->below[i] = code > around ? 2 * (code - around) - 1 : 0;
+        n->above[i] = code + around < most ? 2 * (code + around) + 1 : 2 * most;
+    }
+}
+
 static void numerators_of(const dp_setup *setup, const grain *g, const uint32_t *codes, size_t count, numerators *n) {
     const dp_format *format = &setup->spec.format;
     const bool alone = (g == NULL || g->kind == GRAIN_CODES) && setup->spec.rounding != DP_ROUND_ZERO;
     if (alone && format->bits < 32) {
         (format->kind == DP_FORMAT_UNORM ? unorm_numerators : float_numerators)(format, codes, count, n);
+        return;
+    }
+    if (g != NULL && g->kind == GRAIN_FLOATS && format->kind == DP_FORMAT_UNORM &&
+        setup->spec.rounding != DP_ROUND_ZERO) {
+        around_numerators(format, g, codes, count, n);
         return;
     }
     for (size_t i = 0; i < count; i++) {
