@@ -71,6 +71,7 @@ all_named solve --for distance -n 0.1 -f 1000 -F unorm24 -m d3d --separation 0.0
 all_named solve --for distance -n 0.1 -f 1000 -F fp16 -m reversed --separation 0.01
 all_named table --at 10 --range 5:50
 all_named table --depth 0.5
+all_named bias -F unorm24 -m d3d --at 10 --remedy ray:0.1 --slope 0.1
 all_named world
 all_named world --from-origin 1km,1e6m
 all_named budget --at 10 --from-origin 1e5 --scheme split

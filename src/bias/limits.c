@@ -39,7 +39,7 @@ static const bias_limit rows[] = {
      "up to twice as much just beyond one", "Direct3D 11, Depth Bias",
      "r doubles with each binade of the depth: the same units move a layer by other distances", has_exponents},
     {"clamps", NULL,
-     "a clamp holds the sum with the slope's part, so with one no bias is certain at any slant; WebGPU's compatibility "
+     "a clamp holds the sum with the slope's part: with one no bias is certain at any slant; WebGPU's compatibility "
      "mode wants it to be 0, WebGL and Direct3D 9 have none", "EXT_polygon_offset_clamp; gpuweb/gpuweb#5241",
      "the clamp holds the sum with the slope's part: with one no bias is certain at any slant", is_clamped},
     {"infinity", NULL,

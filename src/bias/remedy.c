@@ -26,7 +26,7 @@ static double ndc(const dp_setup *setup, double amount, double z) {
 }
 
 static double ray(const dp_setup *setup, double amount, double z) {
-    return window_of_step(setup, amount * fabs(z), z);
+    return isinf(z) ? 0.0 : window_of_step(setup, amount * fabs(z), z);
 }
 
 static double normal(const dp_setup *setup, double amount, double z) {
@@ -49,21 +49,22 @@ static const remedy rows[] = {
     {"ndc", "clip pull epsilon", "NDC z - e, or clip z - e w",
      "a constant of window depth, as --api vulkan-float has it",
      "e, NDC depth", "z z' e (1/n - 1/f), about e z^2/n: what is .5 at 20 is 195 at 500", "+ e",
-     "no state; the layer is clipped where it comes before the near plane", 0.0, 2.0, true, true, false, ndc},
+     "no state; the layer is clipped where it comes before the near plane", 0.0, 2.0, true, true, false, false, ndc},
     {"ray", "eye-ray scale", "z (1 - e), along the ray to the eye", NULL, "e, a share of the distance", "e z",
-     "nothing", "nothing shifts on the screen, and the gap grows with the distance", 0.0, 0.5, true, false, true, ray},
+     "nothing", "nothing shifts on the screen, and the gap grows with the distance",
+     0.0, 0.5, true, false, true, false, ray},
     {"normal", "offset lift", "moved along the normal by s", NULL, "s, scene units", "s, wherever the camera is",
-     "nothing", "seen from the side the gap shows", 0.0, 1e12, true, false, false, normal},
+     "nothing", "seen from the side the gap shows", 0.0, 1e12, true, false, false, true, normal},
     {"near", "second-near", "drawn with the near plane k n, and the same far plane", NULL, "k, above 1",
      "about (k - 1) z", "nothing", "clipped before k n; a second projection matrix",
-     1.0, 1e6, true, true, true, second_near},
+     1.0, 1e6, true, true, true, false, second_near},
     {"range", "depth-range glDepthRange slices", "glDepthRange(0, a), all else (0, 1)", "MapLibre's slices",
-     "a, below 1", "(1 - a) d of window depth: all before the layer that is less far off by so much is hidden by it",
-     "glDepthRange(1 - a, 1)", "nothing near the near plane; much, far off: it shows through what is before it",
-     0.0, 1.0, false, true, false, depth_range},
+     "a, below 1", "(1 - a) d of window depth: what is less before the layer is hidden by it",
+     "glDepthRange(1 - a, 1)", "far off it shows through what is before it",
+     0.0, 1.0, false, true, false, false, depth_range},
     {"stencil", NULL, "drawn where its wall has just been marked, without a depth test", NULL, "",
      "the order of drawing",
-     "nothing", "a buffer with stencil, and an order of drawing for each wall", 0.0, 0.0, true, false, false, NULL},
+     "nothing", "a stencil buffer, and an order of drawing for each wall", 0.0, 0.0, true, false, false, false, NULL},
 };
 /* clang-format on */
 
@@ -76,16 +77,19 @@ bool remedy_suits(const remedy *row, const dp_setup *setup) {
 
 /* ---- What they do ------------------------------------------------------------------------------------------------ */
 
+static double nearer_by(const dp_setup *setup, const remedy *row, double amount, double z) {
+    return row->window != NULL ? row->window(setup, amount, z) : 0.0;
+}
+
 /* The exact window depth of the layer: below 0, or reversed above 1, it is clipped. */
 static double depth_with(const dp_setup *setup, const remedy *row, double amount, double z) {
-    const double t = row->window != NULL ? row->window(setup, amount, z) : 0.0;
-    return dp_window(setup, z) + t * bias_sign(setup);
+    return dp_window(setup, z) + nearer_by(setup, row, amount, z) * bias_sign(setup);
 }
 
 static bool is_clipped(const dp_setup *setup, const remedy *row, double amount, double z) {
-    const double t = row->window != NULL ? row->window(setup, amount, z) : 0.0, d = dp_window(setup, z);
+    const double d = dp_window(setup, z);
     const bool behind = row->window == second_near && !(z >= amount * setup->spec.znear);
-    return behind || !(t <= (setup->reversed ? 1.0 - d : d));
+    return behind || !(nearer_by(setup, row, amount, z) <= (setup->reversed ? 1.0 - d : d));
 }
 
 /* How much nearer the depth of z is that is nearer by t in the window. */
@@ -97,7 +101,7 @@ static double step_of_window(const dp_setup *setup, double t, double z) {
 }
 
 bias_effect remedy_at(const dp_setup *setup, const remedy *row, double amount, double z) {
-    const double none = (double)NAN, t = row->window != NULL ? row->window(setup, amount, z) : 0.0;
+    const double none = (double)NAN, t = nearer_by(setup, row, amount, z);
     bias_effect e = {.z = z, .r = {none, none}, .offset = t * bias_sign(setup), .code = dp_code(setup, z)};
     e.depth = fmin(fmax(depth_with(setup, row, amount, z), 0.0), 1.0);
     e.moved = t == 0.0 ? e.code : dp_format_encode(&setup->spec.format, setup->spec.rounding, e.depth);
@@ -126,12 +130,19 @@ bias_push remedy_push(const dp_setup *setup, const remedy *row, double amount, d
 typedef struct question {
     const dp_setup *setup;
     const remedy *row;
-    double amount, gap;
+    double amount, gap, slope, lo, hi;
 } question;
 
-/* A layer whose depth is rounded by itself needs, beyond a bias, half a step of binary32. */
+/* The depth of the layer where it is sampled a pixel farther than its wall at z, at most far. */
+static double sampled_at(const question *q, double z) {
+    const double m = bias_window_slope(q->setup, z, q->slope), far = q->setup->spec.zfar;
+    const double there = m > 0.0 ? z - step_of_window(q->setup, -m, z) : z;
+    return there >= z && there <= far ? there : far;
+}
+
+/* A layer whose depth is rounded by itself needs, beyond a bias, half a step of binary32; with a slope, m besides. */
 static double needed_over(const question *q, double a, double b) {
-    const bias_goal goal = {.api = bias_api_find("vulkan-float"), .gap = q->gap};
+    const bias_goal goal = {.api = bias_api_find("vulkan-float"), .gap = q->gap, .slope = q->slope};
     double worst;
     const double needed = a < b ? bias_needed_over(q->setup, &goal, a, b, &worst) : bias_needed(q->setup, &goal, a);
     const double d = fmax(dp_window(q->setup, a), dp_window(q->setup, b));
@@ -139,13 +150,14 @@ static double needed_over(const question *q, double a, double b) {
 }
 
 static bool enough_at_once(const question *q, double a, double b) {
-    const double outward = 1.0 - DP_ROUNDINGS_30;
-    const double t = fmin(q->row->window(q->setup, q->amount, a), q->row->window(q->setup, q->amount, b));
+    const double outward = 1.0 - DP_ROUNDINGS_30, last = fmax(sampled_at(q, a), sampled_at(q, b));
+    const double t = fmin(q->row->window(q->setup, q->amount, a), q->row->window(q->setup, q->amount, last));
     return !is_clipped(q->setup, q->row, q->amount, a) && !is_clipped(q->setup, q->row, q->amount, b) &&
            t * outward >= needed_over(q, a, b);
 }
 
-/* t is monotone: its least is at an end. What is needed follows binades, so a range is halved until both agree. */
+/* t is monotone: its least is at an end of the depths where the layer is sampled, and those of [a, b] are farthest off
+ * at a or b. What is needed follows binades, so a range is halved until both agree. */
 static bool enough_over(const question *q, double a, double b, int halvings) {
     if (q->row->window == NULL || enough_at_once(q, a, b))
         return true;
@@ -181,19 +193,21 @@ static void find_part(const question *q, double lo, double hi, bias_verdict *v) 
 static bool fails_at(const question *q, double z, bias_verdict *v) {
     const dp_setup *setup = q->setup;
     const dp_format *format = &setup->spec.format;
-    const double d = (double)(float)dp_window(setup, z);
-    const double moved = (double)(float)fmin(fmax(depth_with(setup, q->row, q->amount, z), 0.0), 1.0);
+    const double d = (double)(float)dp_window(setup, z), there = sampled_at(q, z);
+    const double moved = (double)(float)fmin(fmax(depth_with(setup, q->row, q->amount, there), 0.0), 1.0);
     const uint32_t code = dp_format_encode(format, setup->spec.rounding, d);
     const uint32_t layer = dp_format_encode(format, setup->spec.rounding, moved);
+    if (q->slope > 0.0 && !(there < setup->spec.zfar)) /* nothing is drawn there */
+        return false;
     const bool apart = setup->reversed ? layer > code : layer < code;
     const bool short_of = apart && !(-remedy_at(setup, q->row, q->amount, z).shift >= q->gap * (1.0 - 0x1p-40));
-    if (apart && !short_of && !is_clipped(setup, q->row, q->amount, z))
+    v->clipped = is_clipped(setup, q->row, q->amount, z);
+    if (apart && !short_of && !v->clipped)
         return false;
     v->z = z;
     v->code = code;
     v->moved = layer;
     v->short_of_gap = short_of;
-    v->clipped = is_clipped(setup, q->row, q->amount, z);
     return true;
 }
 
@@ -209,44 +223,48 @@ static bool find_witness(const question *q, double lo, double hi, bias_verdict *
     return false;
 }
 
-/* The least number that is enough all over the range: NaN where none is. */
-static double least_of(const question *asked, double lo, double hi) {
-    const remedy *row = asked->row;
-    question q = *asked;
-    double enough = (double)NAN;
-    for (int e = 0; e <= 160 && isnan(enough); e++) { /* from next to nothing, in powers of 2 */
-        const double more = ldexp(1.0, e - 120);
-        q.amount = row->grows ? row->least + more : row->most - more;
-        if (!(q.amount <= row->most && q.amount >= row->least))
-            break;
-        enough = enough_over(&q, lo, hi, HALVINGS) ? more : (double)NAN;
+/* Where it turns from enough to not: the number, or the slope, at `field` is so much from the base. */
+static double turn_of(question *q, double *field, double base, double way, double fails, double holds) {
+    for (int i = 0; i < 80 && !(fabs(holds - fails) <= 0x1p-20 * holds); i++) {
+        const double x = 0.5 * holds + 0.5 * fails;
+        *field = base + way * x;
+        *(enough_over(q, q->lo, q->hi, HALVINGS) ? &holds : &fails) = x;
     }
-    if (isnan(enough))
-        return enough;
-    dp_edge edge = {.holds = enough, .fails = 0.5 * enough, .apart = 0x1p-20};
-    for (double x; dp_edge_between(&edge, &x);) {
-        q.amount = row->grows ? row->least + x : row->most - x;
-        *(enough_over(&q, lo, hi, HALVINGS) ? &edge.holds : &edge.fails) = x;
-    }
-    return row->grows ? row->least + edge.holds : row->most - edge.holds;
+    return base + way * holds;
 }
 
-bias_verdict remedy_judge(const dp_setup *setup, const remedy *row, double amount, double gap, double lo, double hi) {
+/* The least number that is enough all over the range: NaN where none is. */
+static double least_of(question q) {
+    const remedy *row = q.row;
+    const double base = row->grows ? row->least : row->most, way = row->grows ? 1.0 : -1.0;
+    for (int e = 0; e <= 160; e++) { /* from next to nothing, in powers of 2 */
+        const double more = ldexp(1.0, e - 120);
+        q.amount = base + way * more;
+        if (!(q.amount <= row->most && q.amount >= row->least))
+            break;
+        if (enough_over(&q, q.lo, q.hi, HALVINGS))
+            return turn_of(&q, &q.amount, base, way, 0.5 * more, more);
+    }
+    return (double)NAN;
+}
+
+bias_verdict remedy_judge(const dp_setup *setup, const remedy *row, double amount, const bias_goal *goal, double lo,
+                          double hi) {
     const double none = (double)NAN;
-    const question q = {setup, row, amount, gap};
+    const question q = {setup, row, amount, goal->gap, goal->slope, lo, hi};
     bias_verdict v = {.lo = lo, .hi = hi, .from = none, .to = none, .z = none, .code = none, .moved = none};
     v.factor = none;
-    v.units = none;
-    if (row->window == NULL) {
-        v.answer = BIAS_ENOUGH;
-        v.from = lo;
-        v.to = hi;
-        return v;
-    }
-    v.units = least_of(&q, lo, hi);
+    v.units = row->window != NULL ? least_of(q) : none;
     find_part(&q, lo, hi, &v);
     v.answer = v.from == lo && v.to == hi     ? BIAS_ENOUGH
                : find_witness(&q, lo, hi, &v) ? BIAS_NOT_ENOUGH
                                               : BIAS_NOT_PROVEN;
     return v;
+}
+
+double remedy_steepest(const dp_setup *setup, const remedy *row, double amount, double gap, double lo, double hi) {
+    question q = {setup, row, amount, gap, 0.0, lo, hi};
+    return row->parallel || row->window == NULL || !enough_over(&q, lo, hi, HALVINGS)
+               ? (double)NAN
+               : turn_of(&q, &q.slope, 0.0, 1.0, 2.0 * hi, 0.0);
 }

@@ -70,7 +70,7 @@ bool camera_viewed(camera_said *c, camera_fault *fault) {
         return false;
     if (c->ortho)
         return camera_fails(fault, c->use.drawn ? "rasterize" : "viewport",
-                            "conflicts with @ortho: what slants lose is known of perspectives alone");
+                            "conflicts with @ortho, which no slant is bounded in");
     if (said(c, CAMERA_FOV) && said(c, CAMERA_HFOV))
         return camera_fails(fault, "hfov", "conflicts with @fov");
     if (c->matrix.count > 0 && !c->use.drawn)

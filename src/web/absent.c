@@ -5,6 +5,7 @@
  */
 #include <stdio.h>
 
+#include "bias/cmd_bias/trial.h"
 #include "camera/cmd/setups.h"
 #include "camera/depth_range.h"
 #include "camera/profile.h"
@@ -161,6 +162,18 @@ int prepass_stored(const prepass_request *o) {
 
 int link_write(const asked_line *line) {
     return absent(line);
+}
+
+int bias_try(const raster_row *row, const dp_setup *setup, const bias_state *state, double slope, double lo, double hi,
+             const char *render, bias_judged *judged, bias_trial *out) {
+    (void)row, (void)setup, (void)state, (void)slope, (void)lo, (void)hi, (void)render, (void)judged, (void)out;
+    return usage_error("bias --rasterize is not in the page: the program has it");
+}
+
+const column bias_trial_columns[] = {{.kind = COLUMN_END}};
+
+void bias_say_trial(page *p, bias_trial *trial) {
+    (void)p, (void)trial;
 }
 
 #define ABSENT_FIGURE(name)                                                                                            \

@@ -41,10 +41,19 @@ static uint64_t code_of(const dp_format *f, long double d) {
                                       : dp_bits32((float)held);
 }
 
-/* Whether the layer is seen before its wall at z: not clipped, and stored nearer. */
-static bool is_seen(const dp_spec *s, const char *what, double x, double z) {
+/* Where a plane whose eye depth changes by so much from a pixel to the next is so many of them farther: its window
+ * depth is straight. */
+static long double farther(const dp_spec *s, long double z, long double slope, long double pixels) {
+    return slope == 0.0L ? z : s->ortho ? z + slope * pixels : 1.0L / (1.0L / z - slope * pixels / (z * z));
+}
+
+/* Whether the layer, sampled at `there`, is seen before its wall at z: not clipped, and stored nearer; nothing is drawn
+ * beyond far. */
+static bool is_seen(const dp_spec *s, const char *what, double x, double z, long double there) {
     const bool reversed = dp_mapping_get(s->mapping)->reversed != 0;
-    const long double layer = layer_of(s, what, x, z), d = window_of(s, s->znear, z);
+    if (!(there >= (long double)z && there <= (long double)s->zfar))
+        return true;
+    const long double layer = layer_of(s, what, x, there), d = window_of(s, s->znear, z);
     const uint64_t a = code_of(&s->format, layer), b = code_of(&s->format, d);
     return !(reversed ? layer > 1.0L + 1e-15L : layer < -1e-15L) && (reversed ? a > b : a < b);
 }
@@ -77,7 +86,7 @@ static double draw_amount(rng *r, const remedy *row, double least) {
 TEST(random_remedies) {
     rng r = rng_make("bias remedies");
     tally enough = {.name = "enough"}, witness = {.name = "not enough"}, worth = {.name = "worth"};
-    uint64_t answers[8][3] = {{0}};
+    uint64_t answers[8][3] = {{0}}, sloped[3] = {0};
     const uint64_t count = test_cases(600, 4000, 100000);
     for (uint64_t i = 0; i < count;) {
         dp_setup setup;
@@ -87,23 +96,31 @@ TEST(random_remedies) {
         if (!draw_setup(&r, &setup, &lo, &hi) || !remedy_suits(row, &setup))
             continue;
         const dp_spec *s = &setup.spec;
-        const double least = remedy_judge(&setup, row, row->grows ? row->least : row->most, 0.0, lo, hi).units;
+        const double slope = row->parallel || rng_below(&r, 2) ? 0.0 : lo * rng_log(&r, 1e-6, 0.1);
+        const bias_goal goal = {.slope = slope};
+        const double least = remedy_judge(&setup, row, row->grows ? row->least : row->most, &goal, lo, hi).units;
         const double x = draw_amount(&r, row, least);
-        const bias_verdict v = remedy_judge(&setup, row, x, 0.0, lo, hi);
+        const bias_verdict v = remedy_judge(&setup, row, x, &goal, lo, hi);
         i++;
         answers[which][v.answer]++;
+        sloped[v.answer] += slope > 0.0;
         if (x == least)
             TALLY(&enough, v.answer == BIAS_ENOUGH, "%s %s: the least is not enough", row->name, s->format.name);
         for (int k = 0; k < 100 && v.answer == BIAS_ENOUGH; k++) {
             const double z = k == 0 ? lo : k == 1 ? hi : rng_log(&r, lo, hi);
-            TALLY(&enough, is_seen(s, row->name, x, z),
-                  "%s %s %s ortho %d near %.17g far %.17g: %.17g at %.17g is not enough", row->name, s->format.name,
-                  dp_mapping_get(s->mapping)->name, s->ortho, s->znear, s->zfar, x, z);
+            const long double there = farther(s, z, slope, k % 3 ? 1.0L : (long double)rng_uniform(&r, 0.0, 1.0));
+            TALLY(&enough, is_seen(s, row->name, x, z, there),
+                  "%s %s %s ortho %d near %.17g far %.17g: %.17g at %.17g, slope %g, is not enough", row->name,
+                  s->format.name, dp_mapping_get(s->mapping)->name, s->ortho, s->znear, s->zfar, x, z, slope);
         }
         if (v.answer == BIAS_NOT_ENOUGH)
-            TALLY(&witness, !is_seen(s, row->name, x, v.z) && v.z >= lo && v.z <= hi,
-                  "%s %s %s ortho %d near %.17g far %.17g: %.17g at %.17g is enough", row->name, s->format.name,
-                  dp_mapping_get(s->mapping)->name, s->ortho, s->znear, s->zfar, x, v.z);
+            TALLY(&witness,
+                  !(is_seen(s, row->name, x, v.z, farther(s, v.z, slope, 1.0L)) &&
+                    is_seen(s, row->name, x, v.z, v.z)) && /* by the layer a pixel off, or one that is clipped */
+                      v.z >= lo &&
+                      v.z <= hi,
+                  "%s %s %s ortho %d near %.17g far %.17g: %.17g at %.17g, slope %g, is enough", row->name,
+                  s->format.name, dp_mapping_get(s->mapping)->name, s->ortho, s->znear, s->zfar, x, v.z, slope);
         const double z = rng_log(&r, lo, hi), to = remedy_at(&setup, row, x, z).to;
         const long double there = to > 0.0 ? window_of(s, s->znear, to) : 0.0L, exact = layer_of(s, row->name, x, z);
         if (exact > 0.0L && exact < 1.0L)
@@ -119,9 +136,37 @@ TEST(random_remedies) {
                       (unsigned long long)answers[i][BIAS_NOT_PROVEN]);
         assert_true(answers[i][BIAS_ENOUGH] > 5 && answers[i][BIAS_NOT_ENOUGH] > 5);
     }
+    assert_true(sloped[BIAS_ENOUGH] > 20 && sloped[BIAS_NOT_ENOUGH] > 20);
     tally_end(&enough);
     tally_end(&witness);
     tally_end(&worth);
+}
+
+/* The steepest slope is one at which it is enough, as is one below; not one a little above. */
+TEST(steepest) {
+    rng r = rng_make("steepest");
+    tally t = {.name = "steepest"};
+    for (uint64_t i = test_cases(100, 1000, 10000); i > 0;) {
+        dp_setup setup;
+        double lo, hi;
+        const remedy *row = remedy_get((size_t)rng_below(&r, remedy_table.count - 1));
+        if (!draw_setup(&r, &setup, &lo, &hi) || !remedy_suits(row, &setup))
+            continue;
+        i--;
+        const bias_goal none = {.slope = 0.0};
+        const double least = remedy_judge(&setup, row, row->grows ? row->least : row->most, &none, lo, hi).units;
+        const double x = draw_amount(&r, row, least), found = remedy_steepest(&setup, row, x, 0.0, lo, hi);
+        const bool facing = remedy_judge(&setup, row, x, &none, lo, hi).answer == BIAS_ENOUGH;
+        TALLY(&t, isnan(found) == (row->parallel || !facing), "%s %g: %g", row->name, x, found);
+        const double tried[3] = {found, found * rng_uniform(&r, 0.0, 1.0), found * 1.001};
+        for (int k = 0; k < 3 && found > 1e-15 * hi && found < hi; k++) {
+            const bias_goal goal = {.slope = tried[k]};
+            TALLY(&t, (remedy_judge(&setup, row, x, &goal, lo, hi).answer == BIAS_ENOUGH) == (k < 2),
+                  "%s %g: %g beside %g", row->name, x, tried[k], found);
+        }
+    }
+    assert_true(isnan(remedy_steepest(&(dp_setup){.kappa = 1.0}, remedy_find("stencil"), 0.0, 0.0, 1.0, 2.0)));
+    tally_end(&t);
 }
 
 /* ---- By hand ----------------------------------------------------------------------------------------------------- */
@@ -144,10 +189,29 @@ TEST(by_hand) {
                                        {"--remedy stencil:1", "no number", 2},
                                        {"--remedy glue:1", "ndc", 2},
                                        {"--remedy ndc:1 --units 2", "--remedy", 2},
-                                       {"--remedy ndc:1 --viewport 64x64", "--remedy", 2}};
+                                       {"--remedy ndc:1 --viewport 64x64", "--remedy", 2},
+                                       {"--remedy normal:1 --slope 1", "'slanted' of table --viewport", 2}};
     CHECK_REFUSED("bias -F d24 -m d3d", rows);
     check_says(2, "has no effect with log", "bias -F d24 -m log --remedy ndc:1e-5");
     check_says(2, "orthographic", "bias -F d24 -m d3d --ortho --remedy ray:1e-5");
+}
+
+/* D24, near .1, far 1000: at z a slope of s is s n f/((f - n) z^2) of window depth, which the pull has to cover beside
+ * a code and three halves of a step of binary32. */
+TEST(by_hand_at_a_slant) {
+    const double kappa = 1 / 0.1 - 1 / 1000.0, code = 1 / 16777215.0 + 3 * 0x1p-25 + 0x1p-26;
+    json_t *root = json_printed(0, "bias -F d24 -m gl --remedy ndc:1e-4 --range 2:50");
+    const double steepest = number_at(root, "setups[0].facing.steepest"), all = 5e-5 * kappa * 4;
+    assert_true(steepest < all && steepest > (5e-5 - 2 * code) * kappa * 4);
+    json_decref(root);
+    check_says(0, "Enough facing the camera and at the slope",
+               "bias -F d24 -m gl --remedy ndc:1e-4 --range 2:50 --slope %.17g --check", 0.99 * all);
+    check_says(1, "not enough at the slope", "bias -F d24 -m gl --remedy ndc:1e-4 --range 2:50 --slope %.17g --check",
+               1.001 * all);
+    root = json_printed(0, "bias -F d24 -m gl --remedy ray:0.001 --range 1:2"); /* 1/(1/z - s/z^2) (1 - e) is z */
+    const double of_ray = number_at(root, "setups[0].facing.steepest");
+    assert_true(of_ray < 0.001 && of_ray > 0.001 - 2 * code * kappa);
+    json_decref(root);
 }
 
 /* The least is told so that it is enough as it is printed. */

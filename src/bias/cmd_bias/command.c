@@ -22,7 +22,7 @@ enum { DIGITS = 6 };
 /* Whether each set-up's factor is the least that is enough at any slant: a viewport, and neither a bias nor a slope. */
 static bool chooses_factor(const bias_request *o) {
     return o->camera.triangles.width > 0 && !option_given(o->line, "factor") && !option_given(o->line, "slope") &&
-           !option_given(o->line, "units");
+           !option_given(o->line, "units") && o->remedy == NULL;
 }
 
 /* ---- How much is needed ------------------------------------------------------------------------------------------ */
@@ -72,32 +72,32 @@ static void take_range(biasing *b) {
 
 /* ---- Whether it is enough ---------------------------------------------------------------------------------------- */
 
+/* Facing the camera, and at a slope or a slant that is asked about. */
 static void judge(biasing *b) {
+    const bias_request *o = b->o;
+    const remedy *row = o->remedy;
     const dp_setup *setup = b->each.setup;
     const dp_setup facing = dp_setup_facing(setup);
     const double shown = depths_get(&b->each.at, b->each.at.count - 1);
-    bias_goal goal = {.api = &b->api, .gap = b->o->bias.separation};
+    bias_goal goal = {.api = &b->api, .gap = o->bias.separation};
     b->judged_hi = isinf(b->range_hi) ? fmax(shown, b->range_lo) : b->range_hi;
     b->judged_lo = fmin(bias_gap_from(b), b->judged_hi);
-    b->facing = bias_judged_of(&facing, &b->state, &goal, b->judged_lo, b->judged_hi);
+    const double lo = b->judged_lo, hi = b->judged_hi;
+    b->facing = row != NULL ? bias_judged_remedy(&facing, row, o->amount, &goal, lo, hi)
+                            : bias_judged_of(&facing, &b->state, &goal, lo, hi);
     b->sloped = (bias_judged){.what = NULL};
-    if (b->o->remedy != NULL) {
-        b->facing = bias_judged_remedy(setup, b->o->remedy, b->o->amount, goal.gap, b->judged_lo, b->judged_hi);
-        b->missed = b->missed || b->facing.v.answer != BIAS_ENOUGH;
-        b->pushed = bias_pushed_remedy(setup, b->o->remedy, b->o->amount, &b->facing, b->judged_lo, b->judged_hi);
-        return;
-    }
-    goal.slope = b->o->bias.slope;
+    goal.slope = o->bias.slope;
     if (b->when & OF_SLOPES)
-        b->sloped = bias_judged_of(setup, &b->state, &goal, b->judged_lo, b->judged_hi);
-    if (b->o->drawn && b->status == EXIT_FINE)
-        b->status =
-            bias_try(b->o->camera.raster, &b->drawn.items[setup - b->each.all.items], &b->state, b->o->bias.slope,
-                     isnan(b->sloped.v.lo) ? b->judged_lo : b->sloped.v.lo,
-                     isnan(b->sloped.v.hi) ? b->judged_hi : b->sloped.v.hi, b->o->render, &b->sloped, &b->trial);
+        b->sloped = row != NULL ? bias_judged_remedy(&facing, row, o->amount, &goal, lo, hi)
+                                : bias_judged_of(setup, &b->state, &goal, lo, hi);
+    if (o->drawn && b->status == EXIT_FINE)
+        b->status = bias_try(o->camera.raster, &b->drawn.items[setup - b->each.all.items], &b->state, o->bias.slope,
+                             isnan(b->sloped.v.lo) ? lo : b->sloped.v.lo, isnan(b->sloped.v.hi) ? hi : b->sloped.v.hi,
+                             o->render, &b->sloped, &b->trial);
     const bias_judged *strictest = b->when & OF_SLOPES ? &b->sloped : &b->facing;
     b->missed = b->missed || b->facing.v.answer != BIAS_ENOUGH || strictest->v.answer != BIAS_ENOUGH;
-    b->pushed = bias_pushed_of(setup, &b->state, strictest, b->judged_lo, b->judged_hi);
+    b->pushed = row != NULL ? bias_pushed_remedy(setup, row, o->amount, strictest, lo, hi)
+                            : bias_pushed_of(setup, &b->state, strictest, lo, hi);
 }
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
@@ -272,7 +272,7 @@ static const column setup_report[] = {
     {PART(biasing, each.fields, NULL, setup_columns)},
     {FIELD(biasing, apis, "api", ""), .only = AS_CSV, .when = ONE_API | OF_BIAS},
     {FIELD(biasing, o_remedy, "remedy", ""), .only = AS_CSV, .when = BIAS_OF_REMEDY},
-    {FIELD(biasing, state.factor, "factor", ""), .when = ONE_API | WITH_TRIANGLES},
+    {FIELD(biasing, state.factor, "factor", ""), .when = ONE_API | WITH_TRIANGLES | OF_BIAS},
     {LIST("rows", row_columns, next_row)},
     {GROUP("range", range_columns), .only = AS_JSON, .when = ONE_API | INVERSE},
     {PART(biasing, facing, "facing", bias_judged_columns), .only = AS_JSON, .when = EFFECT},
@@ -440,7 +440,7 @@ int cmd_bias(void *request) {
     if (status == EXIT_FINE)
         status = take_drawn(&b);
     if (status == EXIT_FINE)
-        status = bias_check_remedy(o->remedy, &b.each.all);
+        status = bias_check_remedy(o->line, o->remedy, &b.each.all);
     if ((b.when & OF_DEPTHS) && b.each.at.count > 1)
         b.when |= OF_PLACES;
     if (suits_beside(&b))

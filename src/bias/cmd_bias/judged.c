@@ -4,25 +4,32 @@
 #include <ctype.h>
 #include <math.h>
 
+#include "cli/errors.h"
 #include "core/append.h"
 #include "core/elementary.h"
 #include "report/number.h"
 
 enum { DIGITS = 9, DIGITS_PUSHED = 4 };
 
+/* The question in words, and its answer. */
+static bias_judged told_of(bool slanted, double slope, bias_verdict v) {
+    bias_judged j = {.what = slope > 0.0 ? "slope"
+                             : slanted   ? "any slant"
+                                         : "facing",
+                     .asked = slope > 0.0 ? "at the slope"
+                              : slanted   ? "at any slant"
+                                          : "facing the camera",
+                     .answer = bias_answer_name(v.answer),
+                     .v = v,
+                     .steepest = (double)NAN};
+    return j;
+}
+
 bias_judged bias_judged_of(const dp_setup *setup, const bias_state *given, const bias_goal *goal, double lo,
                            double hi) {
     const bool lost = bias_is_missed(setup);
     const bias_state none = {given->api, 0.0, 0.0, 0.0}, *state = lost ? &none : given;
-    const bool any = setup->spec.triangles.width > 0 && goal->slope == 0.0;
-    bias_judged j = {.what = any                 ? "any slant"
-                             : goal->slope > 0.0 ? "slope"
-                                                 : "facing",
-                     .asked = any                 ? "at any slant"
-                              : goal->slope > 0.0 ? "at the slope"
-                                                  : "facing the camera",
-                     .v = bias_judge(setup, state, goal, lo, hi)};
-    j.answer = bias_answer_name(j.v.answer);
+    bias_judged j = told_of(setup->spec.triangles.width > 0, goal->slope, bias_judge(setup, state, goal, lo, hi));
     if (lost)
         j.v.units = j.v.factor = (double)NAN;
     if (!isnan(j.v.units))
@@ -38,14 +45,15 @@ void bias_judged_by(bias_judged *j, double z, double code, double moved) {
     j->v.moved = moved;
 }
 
-bias_judged bias_judged_remedy(const dp_setup *setup, const remedy *row, double amount, double gap, double lo,
-                               double hi) {
-    bias_judged j = {.what = "facing", .asked = "facing the camera"};
-    j.v = remedy_judge(setup, row, amount, gap, lo, hi);
-    j.answer = bias_answer_name(j.v.answer);
+/* The least is rounded so that it stays enough. */
+bias_judged bias_judged_remedy(const dp_setup *setup, const remedy *row, double amount, const bias_goal *goal,
+                               double lo, double hi) {
+    bias_judged j = told_of(false, goal->slope, remedy_judge(setup, row, amount, goal, lo, hi));
     if (!isnan(j.v.units))
         append(j.call, sizeof j.call, "--remedy %s:%s", row->name,
                (row->grows ? number_up : number_down)(j.v.units, DIGITS).text);
+    if (goal->slope == 0.0)
+        j.steepest = remedy_steepest(setup, row, amount, goal->gap, lo, hi);
     return j;
 }
 
@@ -73,12 +81,14 @@ bias_pushed bias_pushed_of(const dp_setup *setup, const bias_state *state, const
     return p;
 }
 
-int bias_check_remedy(const remedy *row, const setups *all) {
+int bias_check_remedy(const asked_line *line, const remedy *row, const setups *all) {
     for (size_t i = 0; row != NULL && i < all->count; i++)
         if (!remedy_suits(row, &all->items[i]))
             return option_error("remedy", "%s has no effect with %s%s: name another means, or mapping", row->name,
                                 dp_mapping_get(all->items[i].spec.mapping)->name,
                                 all->items[i].spec.ortho ? ", orthographic" : "");
+    if (row != NULL && row->parallel && option_given(line, "slope"))
+        return option_error("slope", "says nothing of --remedy %s: see 'slanted' of table --viewport", row->name);
     return EXIT_FINE;
 }
 
@@ -99,6 +109,8 @@ const column bias_judged_columns[] = {
     {FIELD(bias_judged, v.moved, "code_moved", "")},
     {FIELD(bias_judged, v.short_of_gap, "short_of_gap", "")},
     {FIELD(bias_judged, v.clipped, "clipped", ""), .when = BIAS_OF_REMEDY},
+    {FIELD(bias_judged, steepest, "steepest", "scene"), .digits = DIGITS_PUSHED, .downward = true,
+     .when = BIAS_OF_REMEDY},
     {FIELD(bias_judged, v.next, "enough_next", "")},
     {FIELD(bias_judged, v.turned, "enough_turned", "")},
     {FIELD(bias_judged, v.clamped, "enough_unclamped", "")},
@@ -123,7 +135,8 @@ enum {
     NEXT = 32,
     TURNED = 64,
     CLAMPED = 128,
-    CLIPPED = 256
+    CLIPPED = 256,
+    STEEP = 512
 };
 
 static const column said_columns[] = {
@@ -142,6 +155,7 @@ static const sentence judged_words[] = {
     NOTE("", "the clamp holds it: without one it is enough", CLAMPED),
     NOTE("", "the least that is enough: {call}", 0),
     NOTE("", "next to the planes none is certain", NARROWER),
+    NOTE("", "and up to --slope {steepest}", STEEP),
     SENTENCE_END};
 
 /* Ends that nobody would tell from those that were asked for are not told. */
@@ -157,7 +171,7 @@ void bias_say_judged(page *p, bias_judged *j, double lo, double hi) {
              (!open ? IS_ENOUGH : 0) | (v->answer == BIAS_NOT_ENOUGH ? HAS_WITNESS : 0) |
                  (v->short_of_gap ? SHORT : 0) | (open && !isnan(v->from) ? PARTLY : 0) |
                  (is_narrower(v, lo, hi) ? NARROWER : 0) | (v->next ? NEXT : 0) | (v->turned ? TURNED : 0) |
-                 (v->clamped ? CLAMPED : 0) | (v->clipped ? CLIPPED : 0));
+                 (v->clamped ? CLAMPED : 0) | (v->clipped ? CLIPPED : 0) | (isfinite(j->steepest) ? STEEP : 0));
 }
 
 static const sentence pushed_words[] = {

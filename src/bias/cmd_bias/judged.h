@@ -21,6 +21,7 @@ typedef struct bias_judged {
     const char *answer; /**< "not enough" */
     bias_verdict v;
     char call[BIAS_CALL_SIZE]; /**< of the least that is enough; "" where none is */
+    double steepest;           /**< remedy_steepest() of what is written in place of a bias; else NaN */
 } bias_judged;
 
 /** How far it moves a layer that faces the camera. */
@@ -33,12 +34,13 @@ typedef struct bias_pushed {
 /** Judges a bias as the goal asks; one that is missed is none. */
 bias_judged bias_judged_of(const dp_setup *setup, const bias_state *state, const bias_goal *goal, double lo, double hi);
 
-/** Refuses a means that has no effect in some set-up; null: there is none. @return an exit status */
-int bias_check_remedy(const remedy *row, const setups *all);
+/** Refuses a means that has no effect in some set-up, or an option that says nothing of it; null: there is none.
+ * @return an exit status */
+int bias_check_remedy(const asked_line *line, const remedy *row, const setups *all);
 
 /** The same of what is written in place of a bias, and how far that pushes. */
-bias_judged bias_judged_remedy(const dp_setup *setup, const remedy *row, double amount, double gap, double lo,
-                               double hi);
+bias_judged bias_judged_remedy(const dp_setup *setup, const remedy *row, double amount, const bias_goal *goal,
+                               double lo, double hi);
 bias_pushed bias_pushed_remedy(const dp_setup *setup, const remedy *row, double amount, const bias_judged *least,
                                double lo, double hi);
 

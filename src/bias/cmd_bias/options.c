@@ -105,17 +105,17 @@ static int parse_remedy(asked_line *line, const option_row *row, const char *val
 #define GROUP_TYPE bias_request
 static const option_row check_rows[] = {
     {"check", 0, NULL,
-        "exit with status 1 unless the bias given is enough all over the range, also at the slants that are asked "
-        "about", FLAG(checked)},
+        "exit with status 1 unless the bias is enough all over the range, at the slants asked about, too",
+        FLAG(checked)},
     {"remedy", 0, "NAME:X",
-        "in place of a bias: another means, and its number, judged as a bias is, of layers that face the camera: @",
+        "in place of a bias: another means, and its number, judged as a bias is: @",
         .parse = parse_remedy, INTO(const remedy *, remedy), .names = &remedies, .without = "a bias"},
     {"rasterize", 0, NULL,
-        "also draw the layers as random triangles of random planes at any slant, or of --slope, by --raster: how many "
-        "pixels fight with the bias given, and one that does", FLAG(drawn)},
+        "also draw random planes at any slant, or of --slope, by --raster: how many pixels fight, and one that does",
+        FLAG(drawn)},
     {"render", 0, "FILE",
-        "with --rasterize: write a PNG of the plane where most pixels fight; the layer is blue, pixels that show what "
-        "is below it are yellow", FILE_WRITTEN(render)},
+        "with --rasterize: write a PNG of the plane where most pixels fight, which are yellow; the layer is blue",
+        FILE_WRITTEN(render)},
     END};
 /* clang-format on */
 
@@ -171,7 +171,7 @@ static const option_use uses[] = {
     GROUP_OF(camera_slanted), GROUP_OF(camera_projected), GROUP_OF(output_written), END};
 
 static const option_rule rules[] = {
-    CONFLICTS("remedy", "api units factor clamp slope viewport raster rasterize", ", which are of a bias"),
+    CONFLICTS("remedy", "api units factor clamp viewport raster rasterize", ", which are of a bias"),
     CONFLICTS("csv", "rasterize", ", which text and JSON tell of"),
     NEEDS("check", "units remedy", ": it is a bias that is judged"),
     NEEDS("rasterize", "units", ": it is a bias that is drawn"),

@@ -244,7 +244,7 @@ void bias_say_notes(page *p, void *item) {
         say_verdict(p, b);
     if (b->when & OF_BIAS)
         say_limits(p, b);
-    if (b->each.triangles != NULL)
+    if (b->each.triangles != NULL && (b->when & OF_BIAS))
         page_line(p, "resolved: one plane drawn as different triangles, each at least a pixel high");
     if (!one) {
         say_choice(p, b);
