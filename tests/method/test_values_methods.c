@@ -204,6 +204,26 @@ TEST(left_out) {
     free(full);
 }
 
+/* A note of a column stands below a table that has the column, and below no other; angles are no share. */
+TEST(notes_are_of_columns) {
+    static const char *const words[] = {"x memory", "bound", "claim", "fails from"};
+    static const char *const commands[] = {"methods linearize", "methods linearize --full", "methods normal",
+                                           "methods encode"};
+    for (size_t k = 0; k < sizeof commands / sizeof commands[0]; k++) {
+        char *text = command_output(cmd_methods, 0, commands[k]), *head = strstr(text, "\n  method ") + 1,
+             *notes = strstr(text, "\n  ns: ");
+        *strchr(head, '\n') = *notes = '\0';
+        for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
+            char note[32];
+            snprintf(note, sizeof note, " %s: ", words[i]);
+            if ((strstr(head, words[i]) != NULL) != (strstr(notes + 1, note) != NULL))
+                fail_msg("%s: column or note of %s, not both: %s\n%s", commands[k], words[i], head, notes + 1);
+        }
+        assert_true((strstr(head, " radians ") != NULL) == (k == 2) && (strstr(head, " relative ") != NULL) == (k < 2));
+        free(text);
+    }
+}
+
 /* The least time of those on the front that answer the question of the lattice and are off by at most that much. */
 static const bench_result *fastest(size_t f, double most) {
     const bench_result *best = NULL;

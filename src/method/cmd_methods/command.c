@@ -141,13 +141,18 @@ enum {
     OF_PLANES = 1 << 5, /* the walk is over far/near, */
     OF_DEPTHS = 1 << 6, /* or over window depths, */
     OF_OTHERS = 1 << 7, /* and what is for perspective was tried on other depth */
+    IN_SHARES = 1 << 8, /* what is not in steps is relative, */
+    IN_RADIANS = 1 << 9 /* or an angle */
 };
 
 static unsigned conditions(const measuring *b) {
     const method_family_row *f = b->asked.family;
     unsigned when = (f->steps ? IN_STEPS : IN_ULP) | (b->mine != NULL ? ON_DEVICE : OURS_ALONE) |
                     (f->magnitudes ? OF_DEPTHS : OF_PLANES) |
-                    ((f->besides & METHOD_BESIDE_OBLIQUE) != 0 ? OF_OTHERS : 0);
+                    ((f->besides & METHOD_BESIDE_OBLIQUE) != 0 ? OF_OTHERS : 0) |
+                    (strcmp(f->measure, "radians") == 0 ? IN_RADIANS
+                     : f->steps                         ? 0
+                                                        : IN_SHARES);
     for (size_t i = 0; i < b->count; i++)
         when |= isnan(b->results[i].bound) ? 0 : BOUNDED;
     return when;
@@ -173,19 +178,18 @@ static void say_mine(page *p, const measuring *b) {
                   : !m->code.camera                            ? "knows one camera alone, and is not run for others"
                                                                : "no bound is known");
     }
-    if (b->o->judge.mine_count > 0)
+    if (b->o->judge.mine_count > 0 && b->o->out.full)
         page_line(p, "fails from, of yours: the far/near from which its error exceeds %s",
                   number_of(b->results[b->count - 1].row->asked, 3).text);
 }
 
-static void say_losses(page *p, const method_family_row *f) {
-    if (f->magnitudes) {
-        page_line(p, "fails from: the window depth from which its error exceeds its claim; -: none");
-        page_line(p, "lost from, to: the window depth from which codes are wrong by more than one, and why");
-        return;
-    }
-    page_line(p, "fails from: the far/near from which its error exceeds its claim; -: none up to 1e12");
-    page_line(p, "lost from, to: the far/near from which its fourth digit is lost, and to what");
+static void say_losses(page *p, const measuring *b) {
+    const bool codes = b->asked.family->magnitudes;
+    const char *of = codes ? "window depth" : "far/near", *most = codes ? "" : " up to 1e12";
+    if (b->o->out.full)
+        page_line(p, "fails from: the %s from which its error exceeds its claim; -: none%s", of, most);
+    page_line(p, "lost from, to: the %s from which %s; -: none%s", of,
+              codes ? "codes are wrong by more than one, and why" : "its fourth digit is lost, and to what", most);
 }
 
 /* Names the methods that are not measured, those of the same reason in a line. */
@@ -206,13 +210,16 @@ static void say_absent(page *p, measuring *b) {
 
 static void say_marks(page *p, void *item) {
     measuring *b = item;
-    page_line(p,
-              "ns: per element, the least of %d turns; +- %%: of which a quarter took at most so much more; x memory: "
-              "multiple of the time to move the same bytes, %.3g ns",
-              BENCH_REPETITIONS, b->limit);
-    if ((conditions(b) & BOUNDED) != 0)
-        page_line(p, "bound: proven for any depth of this camera; claim: for any camera with this far/near");
-    say_losses(p, b->asked.family);
+    const bool full = b->o->out.full; /* else columns are left out, of which nothing is said */
+    page_line(
+        p, "ns: per element, the least of %d turns; +- %%: of which a quarter took at most so much more; %s %.3g ns",
+        BENCH_REPETITIONS,
+        full ? "x memory: multiple of the time to move the same bytes," : "moving the same bytes takes", b->limit);
+    if (full && (conditions(b) & BOUNDED) != 0)
+        page_line(p, "bound: proven for any depth of this camera");
+    if (full || b->mine == NULL)
+        page_line(p, "claim: for any %s", b->asked.family->magnitudes ? "depth" : "camera with this far/near");
+    say_losses(p, b);
     page_line(p, "* Pareto front: keeps its claim, and no other that does is faster and more accurate; of two as fast, "
                  "within 10 %% or their spread, the more accurate one");
     for (size_t i = 0; i < b->count; i++)
@@ -292,7 +299,8 @@ static const column line_columns[] = {
     {FIELD(line, error, "error", "")},
     {FIELD(line, of.measured.worst.relative, "relative", "")},
     {TEXT_FIELD(line, of.measured.worst.relative, "relative", 10, 3), .upward = true, .when = IN_STEPS, .spare = 5},
-    {TEXT_FIELD(line, of.measured.worst.relative, "relative", 10, 3), .upward = true, .when = IN_ULP},
+    {TEXT_FIELD(line, of.measured.worst.relative, "relative", 10, 3), .upward = true, .when = IN_SHARES},
+    {TEXT_FIELD(line, of.measured.worst.relative, "radians", 10, 3), .upward = true, .when = IN_RADIANS},
     {FIELD(line, of.at_relative, "relative_at", "")},
     {FIELD(line, of.measured.worst.absolute, "absolute", ""), SHOWN("absolute", 10, 3), .upward = true, .spare = 4},
     {FIELD(line, of.at_absolute, "absolute_at", "")},
