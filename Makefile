@@ -366,10 +366,11 @@ $(B)/dist/depthprec-$(VERSION).tgz: $(NPM_FILES) src/npm/package.json Makefile
 .PHONY: cross-windows check-dist check check-full check-programs check-baseline check-probe check-web asan fuzz coverage mutants cross
 SHELL_TESTS := $(filter-out $(TOOLS),$(wildcard tests/*.sh))
 # In the release alone: of objects, headers, the tests themselves, programs of others and what clang makes for the web no
-# sanitizer has a say; and of the gallery none that it has not had of the same figures in test_drawn_*.
+# sanitizer has a say; of the gallery none that it has not had of the same figures in test_drawn_*; and of the answers
+# that test_values_* and these scripts compute anew none that it has not had of the same commands in cli.sh.
 ONCE := $(patsubst %,tests/%.sh,layers headers install readme can_fail mutants aims cameras python npm web gappa engines \
-    public_models vtk plots)
-RUN_TESTS = $(TEST_PROGRAMS) $(if $(filter release,$(CONF)),$(SHELL_TESTS),$(filter-out $(ONCE),$(SHELL_TESTS)))
+    public_models vtk plots examples questions same seeds judge_code) $(B)/tests/test_values_%
+RUN_TESTS = $(if $(filter release,$(CONF)),$(TEST_PROGRAMS) $(SHELL_TESTS),$(filter-out $(ONCE),$(TEST_PROGRAMS) $(SHELL_TESTS)))
 
 check:
 	@sh src/packages.sh check
