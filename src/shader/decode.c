@@ -184,12 +184,20 @@ DP_INLINE double perspective_exact(const dp_setup *setup, decode_quantity quanti
     return above / below;
 }
 
+/* Of a depth that a viewport has moved. */
+static double moved_exact(const dp_setup *setup, decode_quantity quantity, double d) {
+    const double n = setup->spec.znear, f = setup->spec.zfar, z = dp_eye(setup, d, 1 - d);
+    return quantity == DECODE_EYE ? z : quantity == DECODE_01 ? z / f : isinf(f) ? 0 : (z - n) / (f - n);
+}
+
 double decode_exact(const dp_setup *setup, decode_quantity quantity, double d) {
     const double n = setup->spec.znear, f = setup->spec.zfar;
     const double rest = 1 - d, lost = (1 - rest) - d; /* 1 - d = rest + lost, for d in [0, 1] */
     const bool r = setup->reversed != 0, infinite = isinf(f);
     /* the shares of the near and of the far end: 1/z = near/n + far/f */
     const double near_hi = r ? d : rest, near_lo = r ? 0 : lost, far_hi = r ? rest : d, far_lo = r ? lost : 0;
+    if (setup->ranged)
+        return moved_exact(setup, quantity, d);
     if (infinite && quantity != DECODE_EYE)
         return 0;
     if (setup->curve == DP_CURVE_LOG) {
@@ -235,7 +243,8 @@ CLONES static void perspective_reversed(const dp_setup *setup, decode_quantity q
 }
 
 void decode_exact_run(const dp_setup *setup, decode_quantity quantity, const float *d, double *out, size_t count) {
-    const bool simple = setup->curve == DP_CURVE_PERSPECTIVE && !(isinf(setup->spec.zfar) && quantity != DECODE_EYE);
+    const bool simple =
+        setup->curve == DP_CURVE_PERSPECTIVE && !setup->ranged && !(isinf(setup->spec.zfar) && quantity != DECODE_EYE);
     if (simple)
         (setup->reversed ? perspective_reversed : perspective_standard)(setup, quantity, d, out, count);
     for (size_t i = 0; i < count && !simple; i++)

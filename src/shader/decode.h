@@ -78,7 +78,8 @@ void decode_apply(const decode_constants *c, const float *d, float *out, size_t 
 void decode_run(const decode_row *row, const dp_setup *setup, const float *d, float *out, size_t count);
 
 /**
- * The quantity exactly, rounded to double: the reference. `d`, in [0, 1], is taken as it is, and so are the planes.
+ * The quantity exactly, rounded to double: the reference. `d`, in [0, 1], is taken as it is, and so are the planes; of
+ * a depth range, d is that of the window, and `decode_run()` knows none.
  *
  * Bound: 2^-50 relative. In perspective all terms have one sign; else 1 - d is carried as an unevaluated sum of
  * two doubles, so nothing cancels at either end.

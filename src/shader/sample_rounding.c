@@ -349,7 +349,7 @@ static void one_by_one(const dp_setup *setup, const grain *g, const uint32_t *co
 
 void grain_ranges_of(const dp_setup *setup, const grain *g, const uint32_t *codes, size_t count,
                      const grain_rows *out) {
-    if (setup->curve != DP_CURVE_PERSPECTIVE || !is_of_codes(g)) {
+    if (setup->curve != DP_CURVE_PERSPECTIVE || setup->ranged || !is_of_codes(g)) {
         one_by_one(setup, g, codes, count, out);
         return;
     }

@@ -38,7 +38,7 @@ bool grain_bound_init(grain_bound *out, const dp_setup *setup, const grain *g, d
     const dp_spec *spec = &setup->spec;
     const bool codes = g == NULL || g->kind == GRAIN_CODES;
     const bool numbers = !codes && g->kind == GRAIN_FLOATS && g->buffer && spec->format.kind == DP_FORMAT_UNORM;
-    if (!(codes || numbers) || !(setup->curve == DP_CURVE_PERSPECTIVE || spec->ortho))
+    if (!(codes || numbers) || setup->ranged || !(setup->curve == DP_CURVE_PERSPECTIVE || spec->ortho))
         return false;
     const double start = spec->ortho ? setup->anchor : 1 / spec->znear, end = spec->ortho ? spec->zfar : 1 / spec->zfar;
     const double zero = setup->reversed ? end : start, one = setup->reversed ? start : end;

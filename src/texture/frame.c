@@ -41,10 +41,14 @@ uint32_t frame_sky_rank(const frame *f) {
 }
 
 void frame_codes(const frame *f, uint32_t row, uint32_t *codes) {
+    const dp_setup *setup = &f->camera->setup;
     if (f->synthetic != NULL)
         synthetic_codes(f->synthetic, f->camera, f->parameters, row, codes);
     else
-        image_codes(f->image, &f->camera->setup.spec.format, row, 0, f->camera->width, codes);
+        image_codes(f->image, &setup->spec.format, row, 0, f->camera->width, codes);
+    for (uint32_t x = 0; x < f->camera->width && setup->ranged; x++) /* of a layer with a range before this one */
+        if (frame_rank(setup, codes[x]) < frame_rank(setup, setup->code_near))
+            codes[x] = UINT32_MAX;
 }
 
 frame frame_along(const frame *f, texture_camera *camera) {
@@ -75,8 +79,19 @@ static const char *camera_refuses(const frame *f, const frame_product *product) 
     return NULL;
 }
 
+/* What is made of window depths, and reads those from 0 to 1. */
+static const char *range_refuses(const frame *f, const frame_product *product) {
+    const bool reads = product->kind == FRAME_EFFECT || (product->kind == FRAME_POSITION && product->position != NULL);
+    return f->camera->setup.ranged && reads
+               ? "it reads depths of the depth range 0 to 1: undo the range, or take position:exact, eye, normal or raw"
+               : NULL;
+}
+
 const char *frame_refuses(const frame *f, const frame_product *product) {
-    const char *refused = camera_refuses(f, product);
+    const char *refused = range_refuses(f, product);
+    if (refused != NULL)
+        return refused;
+    refused = camera_refuses(f, product);
     if (refused != NULL)
         return refused;
     if (product->kind == FRAME_POSITION && product->position != NULL &&

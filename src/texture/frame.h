@@ -156,8 +156,9 @@ bool frame_summarise(const frame *f, const frame_product *product, frame_summary
 
 /**
  * The error that a decoding in binary32 adds to stored depths: relative, over the pixels that are not sky; p99 is NaN.
+ * `undone`: of (d - LO)/(HI - LO) in binary32, in place of the depth that a viewport of that range has moved.
  * An error that is NaN counts as infinite. @return false when out of memory
  */
-bool frame_summarise_decoding(const frame *f, const decode_row *row, frame_summary *out);
+bool frame_summarise_decoding(const frame *f, const decode_row *row, bool undone, frame_summary *out);
 
 #endif

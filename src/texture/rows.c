@@ -151,7 +151,7 @@ static double true_window(const frame_row *in, uint32_t x) {
     synthetic_hit hit;
     in->frame->synthetic->hit(camera_of(in), in->frame->parameters, x, in->row, &hit);
     if (!(hit.z < setup->spec.zfar))
-        return setup->reversed ? 0 : 1;
+        return setup->ends[1];
     return dp_window(setup, fmax(hit.z, setup->spec.znear));
 }
 

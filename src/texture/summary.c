@@ -87,6 +87,8 @@ enum { ROWS = 16 };
 typedef struct decoding {
     const frame *f;
     const decode_row *row;
+    dp_setup plain; /* as the shader has its constants: of the depth range 0 to 1 */
+    bool undone;
     frame_summary *out;
     dp_batch window;
     uint32_t width, sky;
@@ -122,6 +124,13 @@ static struct row_summary summary_of(const double *off, uint32_t width, uint32_t
     return (struct row_summary){found, sum};
 }
 
+/* (d - LO)/(HI - LO) in binary32, as a shader undoes a depth range. */
+static void undo(const double range[2], const float *d, float *out, size_t count) {
+    const float lo = (float)range[0], by = (float)range[1] - lo;
+    for (size_t i = 0; i < count; i++)
+        out[i] = (d[i] - lo) / by;
+}
+
 static void decode_strip(void *context, size_t index, size_t slot, int thread) {
     const decoding *s = context;
     const dp_setup *setup = &s->f->camera->setup;
@@ -131,7 +140,9 @@ static void decode_strip(void *context, size_t index, size_t slot, int thread) {
     for (uint32_t y = (uint32_t)index * ROWS; y < s->f->camera->height && y / ROWS == index; y++) {
         frame_codes(s->f, y, codes);
         dp_batch_run(&s->window, codes, d, s->width);
-        decode_run(s->row, setup, d, got, s->width);
+        if (s->undone)
+            undo(setup->spec.depth_range, d, got, s->width);
+        decode_run(s->row, &s->plain, s->undone ? got : d, got, s->width);
         decode_exact_run(setup, s->row->quantity, d, off, s->width);
         relative(got, codes, setup->reversed ? setup->spec.format.code_max : 0, s->sky, off, s->width);
         s->rows[slot * ROWS + y % ROWS] = summary_of(off, s->width, y);
@@ -160,10 +171,15 @@ static bool add_strip(void *context, size_t index, size_t slot) {
     return true;
 }
 
-bool frame_summarise_decoding(const frame *f, const decode_row *row, frame_summary *out) {
+bool frame_summarise_decoding(const frame *f, const decode_row *row, bool undone, frame_summary *out) {
     const int threads = frame_threads(f);
     const size_t width = f->camera->width, slots = 4 * (size_t)threads;
     decoding s = {.f = f, .row = row, .out = out, .width = f->camera->width, .sky = frame_sky_rank(f)};
+    dp_spec spec = f->camera->setup.spec;
+    spec.depth_range[0] = 0;
+    spec.depth_range[1] = 1;
+    dp_setup_init(&s.plain, &spec); /* a checked set-up with another range */
+    s.undone = undone;
     s.rows = malloc(slots * ROWS * sizeof *s.rows);
     s.desks = calloc((size_t)threads, sizeof *s.desks);
     bool good =

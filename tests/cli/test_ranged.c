@@ -278,6 +278,125 @@ TEST(checked) {
     tally_end(&t);
 }
 
+/* ---- texture ------------------------------------------------------------------------------------------------------
+ */
+
+enum { SIDE = 8, PIXELS = SIDE * SIDE };
+
+/* A PGM of codes of 16 bits. */
+static const char *image_of(const uint32_t codes[PIXELS]) {
+    const char *path = scratch_file("ranged.pgm");
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    fprintf(file, "P5 %d %d 65535\n", SIDE, SIDE);
+    for (int i = 0; i < PIXELS; i++) {
+        fputc((int)(codes[i] >> 8), file);
+        fputc((int)(codes[i] & 255), file);
+    }
+    assert_int_equal(fclose(file), 0);
+    return path;
+}
+
+/* LinearEyeDepth of a depth from 0 to 1 by constants in binary32, as Unity has them. */
+static double linear_eye(const dp_spec *s, float d) {
+    const long double n = s->znear, f = s->zfar;
+    const float z = (float)(is_turned(s) ? 1 / n - 1 / f : 1 / f - 1 / n), w = (float)(is_turned(s) ? 1 / f : 1 / n);
+    const float sum = z * d + w;
+    return (double)(1 / sum);
+}
+
+/* The eye depth of a binary32 window depth; beyond an end that plane's. */
+static double eye_of(const dp_spec *s, float d) {
+    const long double lo = s->depth_range[0], q = ((long double)d - lo) / (s->depth_range[1] - lo);
+    const long double share = fminl(fmaxl(is_turned(s) ? 1 - q : q, 0), 1);
+    return (double)(1 / ((1 - share) / s->znear + share / s->zfar));
+}
+
+/* The largest relative error of that, of depths as they are or brought to 0 to 1 first. */
+static double decoded_off(const dp_spec *s, const double *z, const uint32_t *codes, bool undone) {
+    const float lo = (float)s->depth_range[0], span = (float)s->depth_range[1] - lo;
+    double most = 0;
+    for (int i = 0; i < PIXELS; i++) {
+        const float d = (float)((double)codes[i] / 65535), moved = d - lo;
+        const double want = eye_of(s, d);
+        if (!isnan(z[i]))
+            most = fmax(most, fabs(linear_eye(s, undone ? moved / span : d) - want) / want);
+    }
+    return most;
+}
+
+static double named_error(const json_t *root, const char *name) {
+    size_t i = 0;
+    while (node_at(root, "errors[%zu]", i) != NULL && strcmp(text_at(root, "errors[%zu].name", i), name) != 0)
+        i++;
+    return number_at(root, "errors[%zu].max", i);
+}
+
+static void check_pixels(const viewport *v, const char *path, const uint32_t *codes, double *z, double *reach,
+                         oracle *o, tally *t) {
+    oracle_cell cell;
+    oracle_cell_init(&cell);
+    const uint32_t first = oracle_code(o, v->spec.znear), last = oracle_code(o, v->spec.zfar);
+    for (int i = 0; i < PIXELS; i += 1) {
+        oracle_cell_of(o, &cell, codes[i]);
+        z[i] = (falls(&v->spec) ? codes[i] > first : codes[i] < first) ? NAN : oracle_double(cell.stored);
+        if (!isnan(z[i]) && codes[i] != last)
+            *reach = fmax(*reach, fmax(oracle_double(cell.hi) - z[i], z[i] - oracle_double(cell.lo)));
+        if (i % 9 != 0)
+            continue;
+        json_t *root = json_printed(0, "texture %s %s --sky 0 --pixel %d,%d", path, v->words, i % SIDE, i / SIDE);
+        const char *state = text_at(root, "pixels[0].state");
+        const double got = number_at(root, "pixels[0].z");
+        TALLY(t, strcmp(state, isnan(z[i]) ? "hole" : "depth") == 0 || codes[i] == last, "%s: code %u is a %s",
+              v->words, codes[i], state);
+        TALLY(t, (isnan(got) && isnan(z[i])) || fabs(got - z[i]) <= 1e-12 * z[i],
+              "%s: code %u at %.17g, should be %.17g", v->words, codes[i], got, z[i]);
+        if (!isnan(z[i]))
+            TALLY(t,
+                  oracle_distance(number_at(root, "pixels[0].lo"), cell.lo) <= 1e-12 * z[i] &&
+                      oracle_distance(number_at(root, "pixels[0].hi"), cell.hi) <= 1e-12 * z[i],
+                  "%s: code %u may be %.17g to %.17g", v->words, codes[i], number_at(root, "pixels[0].lo"),
+                  number_at(root, "pixels[0].hi"));
+        json_decref(root);
+    }
+    oracle_cell_clear(&cell);
+}
+
+/* Pixels of the range, and of a layer before it, which are holes here; and what a shader makes of them. */
+TEST(texture) {
+    const dp_format formats[] = {oracle_unorm(16)};
+    rng r = rng_make("ranged texture");
+    tally t = {.name = "texture --depth-range"};
+    for (uint64_t i = test_cases(3, 15, 60); i > 0; i--) {
+        viewport v = any_viewport(&r, formats, 1);
+        while (fabs(v.spec.depth_range[1] - v.spec.depth_range[0]) < 1e-3) /* few codes look like those of fewer bits */
+            v = any_viewport(&r, formats, 1);
+        uint32_t codes[PIXELS];
+        double z[PIXELS], reach = 0;
+        oracle o;
+        oracle_init(&o, &v.spec);
+        for (int k = 0; k < PIXELS; k++)
+            codes[k] = oracle_code(&o, rng_log(&r, v.spec.znear, v.spec.zfar * 0.99));
+        codes[9] = falls(&v.spec) ? 65535 : 0;
+        const char *path = image_of(codes);
+        check_pixels(&v, path, codes, z, &reach, &o, &t);
+        json_t *root = json_printed(0, "texture %s %s --sky 0", path, v.words);
+        const double bound = named_error(root, "eye depth");
+        TALLY(&t, bound >= reach * (1 - 1e-12) && bound <= reach * 1.0001 + v.spec.zfar * 0x1p-22,
+              "%s: off by %g, said %g", v.words, reach, bound);
+        for (int k = 0; k < PIXELS; k++)
+            z[k] = codes[k] == oracle_code(&o, v.spec.zfar) ? NAN : z[k];
+        const double raw = decoded_off(&v.spec, z, codes, false), undone = decoded_off(&v.spec, z, codes, true);
+        TALLY(&t, isinf(raw) || fabs(named_error(root, "decode linear-eye") - raw) <= 1e-6 * raw + 1e-12,
+              "%s: %g, should be %g", v.words, named_error(root, "decode linear-eye"), raw);
+        TALLY(&t, isinf(undone) || fabs(named_error(root, "undone linear-eye") - undone) <= 1e-6 * undone + 1e-12,
+              "%s: undone %g, should be %g", v.words, named_error(root, "undone linear-eye"), undone);
+        json_decref(root);
+        oracle_clear(&o);
+    }
+    tally_end(&t);
+}
+
 /* ---- bias -------------------------------------------------------------------------------------------------------- */
 
 /* A unit more or less in binary32, as OpenGL moves it: r is assumed to be 2^-N. */
@@ -369,6 +488,7 @@ TEST(refusals) {
                                         "methods position",
                                         "judge --pairs tests/pairs/reversed.csv",
                                         "prepass"};
+    const char *made = scratch_file("made.npy");
     CHECK_REFUSED("table", rows);
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
         check_says(2, "(d - LO)/(HI - LO)", "%s --depth-range 0:.5", lines[i]);
@@ -377,6 +497,13 @@ TEST(refusals) {
     check_says(2, "conflicts with --rasterize", "zfight --rasterize --depth-range 0:.5");
     check_says(2, "--depth-range: conflicts with --remedy", "bias --remedy ndc:1e-5 --depth-range 0:.5");
     check_says(2, "--depth-range: conflicts with --from-origin", "budget --from-origin 1e4 --depth-range 0:.5");
+    check_says(2, "conflicts with --metric: metric depth", "texture a.png --metric mm --depth-range 0:.5");
+    check_says(2, "only with FILE or --synthetic", "texture --product effect:edge -F d16 -m d3d --depth-range 0:.5");
+    check_says(2, "undo the range",
+               "texture --synthetic plane --size 8x8 --product effect:edge -o %s --depth-range 0:.5", made);
+    check_says(2, "undo the range",
+               "texture --synthetic plane --size 8x8 --product position:view -o %s --depth-range 0:.5", made);
+    check_says(0, "", "texture --synthetic plane --size 8x8 --product position:exact -o %s --depth-range 0:.5", made);
     check_says(0, "", "table -m log --depth-range 0:1 --viewport 640x480");
 }
 

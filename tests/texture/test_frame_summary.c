@@ -56,7 +56,7 @@ TEST(summaries_leave_out_sky_and_what_has_no_bound) {
     assert_int_equal(sum.count, 1);
     assert_int_equal(sum.infinite, 1);
     assert_int_equal(sum.hi_column, 2);
-    assert_true(frame_summarise_decoding(&s.frame, decode_find("linear-eye"), &sum));
+    assert_true(frame_summarise_decoding(&s.frame, decode_find("linear-eye"), false, &sum));
     assert_int_equal(sum.count, 2);
     assert_int_equal(sum.infinite, 0);
 }

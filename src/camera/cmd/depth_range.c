@@ -49,12 +49,13 @@ const char *setup_range(const setup_fields *f, char out[SETUP_RANGE_SIZE]) {
 int range_complete(const camera_asked *c) {
     static const struct {
         const char *option, *why;
-    } others[] = {{"from-origin", "what is known of places in a world"},
-                  {"remedy", "another means than a bias"},
-                  {"link", "the page"}};
+    } others[] = {{"from-origin", "what is known of places in a world is of the depth range 0 to 1"},
+                  {"remedy", "another means than a bias is judged in the depth range 0 to 1"},
+                  {"metric", "metric depth has no range"},
+                  {"stereo", "disparities have no range"},
+                  {"link", "the page has the depth range 0 to 1 alone"}};
     for (size_t i = 0; i < sizeof others / sizeof others[0] && option_given(c->line, "depth-range"); i++)
         if (option_given(c->line, others[i].option))
-            return option_error("depth-range", "conflicts with --%s: %s is of the depth range 0 to 1 alone",
-                                others[i].option, others[i].why);
+            return option_error("depth-range", "conflicts with --%s: %s", others[i].option, others[i].why);
     return EXIT_FINE;
 }

@@ -272,8 +272,8 @@ const option_table texture_options = {.rows = texture_rows};
 enum { TEXTURE_EFFECT = 1, TEXTURE_PLACED = 2, TEXTURE_IMAGE = 4 };
 static const option_use of_effect[] = {TAKE("at"), END};
 static const option_use of_image[] = {
-    TAKE("sky"), TAKE("metric"), TAKE("stereo"), TAKE("lattice"), TAKE("radial"), TAKE("intrinsics"), TAKE("as"),
-    TAKE("error-map"),
+    TAKE("sky"), TAKE("depth-range"), TAKE("metric"), TAKE("stereo"), TAKE("lattice"), TAKE("radial"),
+    TAKE("intrinsics"), TAKE("as"), TAKE("error-map"),
     TAKE("figure"),
     TAKE("hi-z"),
     GROUP_OF(figure_picture), TAKE("threads"), TAKE("packing"), TAKE("normal-format"), TAKE("channel"), TAKE("overlay"),

@@ -287,21 +287,23 @@ static bool add_error(statistics *r, const frame_product *product) {
     return frame_summarise(&r->source.frame, product, &e->sum);
 }
 
-static bool add_decoding(statistics *r, const decode_row *row) {
+/* Of a depth range both what a shader makes of the depth as it is stored, and of the depth that is brought to 0 to 1.
+ */
+static bool add_decoding(statistics *r, const decode_row *row, bool undone) {
     if (r->error_count == ERRORS_MAX || r->source.frame.metric || r->source.camera.oblique.on ||
-        !decode_applies(row, &r->source.setup))
+        !decode_applies(row, &r->source.setup) || (undone && !r->source.setup.ranged))
         return true;
     error_line *e = &r->errors[r->error_count++];
-    snprintf(e->name, sizeof e->name, "decode %s", row->name);
+    snprintf(e->name, sizeof e->name, "%s %s", undone ? "undone" : "decode", row->name);
     e->unit = "relative";
-    return frame_summarise_decoding(&r->source.frame, row, &e->sum);
+    return frame_summarise_decoding(&r->source.frame, row, undone, &e->sum);
 }
 
 /* The products whose errors are shown: a synthetic image knows all, an image those certain at once. */
 static size_t products_of(const statistics *r, frame_product out[ERRORS_MAX]) {
     size_t count = 0;
     out[count++] = (frame_product){.kind = FRAME_EYE, .error = true};
-    for (size_t i = 0; !statistics_of_image(r) && position_get(i) != NULL; i++)
+    for (size_t i = 0; !statistics_of_image(r) && !r->source.setup.ranged && position_get(i) != NULL; i++)
         out[count++] = (frame_product){.kind = FRAME_POSITION, .error = true, .position = position_get(i)};
     for (size_t i = 0; !statistics_of_image(r) && normal_get(i) != NULL; i++)
         out[count++] = (frame_product){.kind = FRAME_NORMAL, .error = true, .normal = normal_get(i)};
@@ -318,7 +320,7 @@ static bool gather_statistics(statistics *r) {
         progress_step(&bar, k + 1);
         good = add_error(r, &products[k]);
         for (size_t i = 0; good && decoded && k == 0 && decode_get(i) != NULL; i++)
-            good = add_decoding(r, decode_get(i));
+            good = add_decoding(r, decode_get(i), false) && add_decoding(r, decode_get(i), true);
     }
     progress_end(&bar);
     return good;
