@@ -149,6 +149,12 @@ check "of an orthographic camera" pareto "fp32 reversed: on the Pareto front: or
 check "a family is shown where a method keeps its claim" pareto "normal fp32 reversed: radians: on the Pareto front: medium .*"
 check "each family" [ "$(sed -n 's/^\([a-z]*\) .*on the Pareto front.*/\1/p' "$scratch/rows" | sort -u | wc -l)" -eq 6 ]
 
+ends_at() { # ends_at FAR WRITTEN: the coarsest cascade
+    "$DEPTHPREC" plot shadow -f "$1" --json >"$scratch/json" && jq -r '.panels[-1].title' "$scratch/json" | grep -E "^Cascade 4: [0-9.]+ to $2, texel"
+}
+check "a cascade ends at 1000, not at 1e+03" ends_at 1000 1000
+check "at 25000" ends_at 25000 25000
+
 check "auto chooses the model of each curve" sh -c '
     "$1" plot interval --model auto -F unorm16,unorm24 -m d3d,log --json >"$2" &&
         jq -r ".panels[].series[].name" "$2" | sort -u | tr "\n" ";" | grep -qx "unorm16 d3d, exact;unorm16 log, exact;unorm24 d3d, float;unorm24 d3d, float, census;unorm24 d3d, float, lattice;unorm24 log, staged;"

@@ -11,6 +11,7 @@
 #include "core/append.h"
 #include "core/elementary.h"
 #include "draw/theme.h"
+#include "draw/ticks.h"
 #include "plot/figure.h"
 #include "shadow/engine.h"
 #include "shadow/ground.h"
@@ -139,11 +140,13 @@ static void add_panel(chart *out, const figure_request *request, size_t i) {
                             .key = "angle",
                             .unit = "degrees"};
     panel->y = (chart_axis){.scale = CHART_LOG, .label = "along the light", .key = "length", .unit = "scene units"};
+    char from[TICKS_TEXT], to[TICKS_TEXT];
+    ticks_about(request->map_count > 1 ? c->from : light.receiver_lo, from);
+    ticks_about(c->to, to);
     if (request->map_count > 1)
-        snprintf(panel->title, sizeof panel->title, "Cascade %zu: %.3g to %.3g, texel %.3g", i + 1, c->from, c->to,
-                 m.need.texel);
+        snprintf(panel->title, sizeof panel->title, "Cascade %zu: %s to %s, texel %.3g", i + 1, from, to, m.need.texel);
     else if (light.kind != SHADOW_SUN)
-        snprintf(panel->title, sizeof panel->title, "At z = %.3g, texel %.3g", light.receiver_lo, m.need.texel);
+        snprintf(panel->title, sizeof panel->title, "At z = %s, texel %.3g", from, m.need.texel);
     for (int k = 0; k < GROUPS && request->engine == NULL; k++)
         add_curve(out, panel, &m, group_at, k, (chart_style){k, 0, k, false}, "", groups[k].name);
     if (request->engine != NULL)
