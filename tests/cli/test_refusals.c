@@ -119,6 +119,7 @@ static const refusal refusals[] = {
     {"prepass --against fma --ortho -n -5 -f 5", "vertices", 2},
     {"prepass --prepass-format d25", "prepass-format", 2},
     {"prepass --prepass-format unorm25", "prepass-format", 2},
+    {"prepass --prepass-format d16,rg", "prepass-format", 2},
     {"prepass --prepass-format d16 --resolve min", "prepass-format", 2},
     {"prepass --prepass-format d16 --sample 5", "prepass-format", 2},
     {"prepass --prepass-format d16 -m log", "mapping", 2},

@@ -58,7 +58,7 @@ static const option_use uses[] = {
     ROWS(prepass_rows),
     OWN("format", DEFAULT("fp32")), OWN("mapping", HELP(CAMERA_PERSPECTIVE), DEFAULT("reversed")),
     OWN("arith", ALSO("by default that of --platform where known")),
-    OWN("range", HELP("the eye depths of the vertices"), WITHOUT("near to far; needed where far is inf")),
+    OWN("range", HELP("the eye depths that are drawn"), WITHOUT("near to far; needed where far is inf")),
     TAKE("threads"), TAKE("link"), GROUP_OF(stored_uses),
     GROUP_OF(camera_projected), GROUP_OF(output_written), END};
 /* clang-format on */

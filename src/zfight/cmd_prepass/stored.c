@@ -215,8 +215,9 @@ static void say_needs(page *p, void *item) {
     if (a->each.setup->spec.format.kind == DP_FORMAT_FLOAT && a->o->stored.cases[0].way == NULL)
         page_line(p, "In a float format units shrink with the window depth: depths next to d = 0 need the most; "
                      "--range leaves them out.");
-    page_line(p, "moves: how much nearer that brings a surface at z = %s, without what its slope adds.",
-              camera_length(a->each.here, a->hi, 0).text);
+    if (!isinf(a->hi))
+        page_line(p, "moves: how much nearer that brings a surface at z = %s, without what its slope adds.",
+                  camera_length(a->each.here, a->hi, 0).text);
     page_line(p, "Between vertices, triangle setup adds to that: see budget --viewport.");
 }
 

@@ -5,6 +5,7 @@
 #include "camera/make.h"
 #include "cli/option/kinds.h"
 #include "convert/again.h"
+#include "core/engine.h"
 #include "zfight/cmd_prepass/stored.h"
 
 enum { SAMPLES_USUAL = 4 };
@@ -36,6 +37,8 @@ static int add_format(asked_line *line, const option_row *row, const char *name,
     for (size_t i = 0; i < count && status == EXIT_FINE; i++) {
         stored_case one = {.format = found[i]};
         snprintf(one.name, sizeof one.name, "%.*s", DP_FORMAT_NAME_SIZE, found[i].name);
+        if (dp_format_is_rg(&found[i]))
+            return option_refuse(row, "must hold window depth, got '%s', which holds eye depth over far", name);
         status = again_fits(&found[i])
                      ? add_case(group, row, &one)
                      : option_refuse(row, "must be fp32 or have at most 2^24 codes, which are all looked at, got '%s'",
