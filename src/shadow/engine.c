@@ -84,6 +84,27 @@ static void along_ray(const shadow_light *light, const ground *g, double length,
     out->rest_most += !depth ? length / g->depth : left > 0.0 ? length * z / left / g->depth : (double)INFINITY;
 }
 
+/* A length along the ray that its bias is, where the ground is; 0 of one in window depth or units. */
+static double ray_of(const shadow_engine *engine, const shadow_light *light, const ground *g, double value) {
+    if (engine->bias_in[light->kind] == SHADOW_IN_CLIP && !shadow_holds_distance(light))
+        return value * light->setup.spec.zfar * light->setup.kappa;
+    return value * length_of(engine->bias_in[light->kind], light, g);
+}
+
+/* What is given of the depth of a point is least at an end of the range. */
+static void share(const shadow_engine *engine, const shadow_light *light, double value, double normal,
+                  shadow_given *out) {
+    const bool sun = light->kind == SHADOW_SUN;
+    const double ends[2] = {light->receiver_lo, light->receiver_hi};
+    out->ray_share = out->offset_share = (double)INFINITY;
+    for (int i = 0; i < 2; i++) {
+        const ground g = shadow_ground_at(light, ends[i]);
+        const double offset = normal * length_of(engine->normal_in[light->kind], light, &g);
+        out->ray_share = fmin(out->ray_share, ray_of(engine, light, &g, value) / (sun ? 1.0 : g.z));
+        out->offset_share = fmin(out->offset_share, sun ? offset : offset / (g.z + offset));
+    }
+}
+
 shadow_given shadow_engine_gives(const shadow_engine *engine, const shadow_light *light, const bias_api *api,
                                  double bias, double normal) {
     const dp_setup *setup = &light->setup;
@@ -113,6 +134,8 @@ shadow_given shadow_engine_gives(const shadow_engine *engine, const shadow_light
     } else {
         along_ray(light, &g, value * length_of(engine->bias_in[kind], light, &g), &given);
     }
+    given.level = units * low.least + (engine->bias_in[kind] == SHADOW_IN_WINDOW ? value : 0.0);
+    share(engine, light, value, normal * engine->normal_scale[kind] * by, &given);
     given.window_most = given.rest_most + units * (isfinite(high.most) ? high.most : high.least);
     return given;
 }
@@ -129,21 +152,50 @@ static double grown(shadow_growth growth, double angle) {
 
 enum { STEPS = 10 }; /* a degree */
 
-/* The bias that one depth needs and is given, lengths at its farther end. */
+/* The bias that is needed and given, lengths over the depth of the point, or of the sun scene units. */
 typedef struct balance {
-    double across; /* texels that have to be covered, scene units over a diagonal */
-    double along;  /* what the ray gives beyond rounding, scene units of depth */
+    double across; /* texels that have to be covered, over a diagonal */
+    double along;  /* depth that is given beyond rounding, the same along all rays */
+    double ray;    /* along the ray */
     double offset; /* along the normal */
     double corner; /* radians: rays lean by up to that */
     shadow_growth growth;
 } balance;
 
-/* The most that rays which lean by up to the corner lack at angles from `from` to `to`: along times the ray's length is
- * least on the axis, and negative most in the corner. */
+/* across sin(to + a) - along cos(to)/cos a, and what it changes by with a. */
+typedef struct leaning {
+    double value, slope;
+} leaning;
+
+static leaning leaning_at(const balance *b, double to, double a) {
+    const double seen = fmin(to + a, 0.5 * SHADOW_HALF_TURN), level = b->along * dp_cos(to) / dp_cos(a);
+    return (leaning){b->across * dp_sin(seen) - level, b->across * dp_cos(seen) - level * dp_tan(a)};
+}
+
+/* The most of it over all rays, or a little more: it is concave, so it lies below the tangents at the ends of a part in
+ * which it turns. */
+static double most_leaning(const balance *b, double to) {
+    double from = 0.0, end = b->corner;
+    leaning left = leaning_at(b, to, from), right = leaning_at(b, to, end);
+    if (left.slope <= 0.0 || right.slope >= 0.0)
+        return left.slope <= 0.0 ? left.value : right.value;
+    for (int i = 0; i < 5; i++) {
+        const double middle = 0.5 * (from + end);
+        const leaning there = leaning_at(b, to, middle);
+        *(there.slope > 0.0 ? &from : &end) = middle;
+        *(there.slope > 0.0 ? &left : &right) = there;
+    }
+    const double meet = (left.value - right.value + right.slope * (end - from)) / (right.slope - left.slope);
+    return left.value + left.slope * meet;
+}
+
+/* The most that rays which lean by up to the corner lack at angles from `from` to `to`. */
 static double lacks(const balance *b, double from, double to) {
     const double seen = fmin(to + b->corner, 0.5 * SHADOW_HALF_TURN);
-    const double longest = b->along < 0.0 ? dp_cos(from) / dp_cos(b->corner) : dp_cos(to);
-    return b->across * dp_sin(seen) - b->offset * grown(b->growth, from) - b->along * longest;
+    const double given = b->offset * grown(b->growth, from) + b->ray * dp_cos(to);
+    if (b->along < 0.0)
+        return b->across * dp_sin(seen) - b->along * dp_cos(from) / dp_cos(b->corner) - given;
+    return most_leaning(b, to) - given;
 }
 
 /* The greatest angle up to which nothing lacks. */
@@ -187,10 +239,13 @@ shadow_verdict shadow_judge(const shadow_light *light, const shadow_given *given
                              : 0.0;
     const bool covered = given->factor >= need.bias[SHADOW_SLOPE].factor;
     const double rest = given->factor > 0.0 ? need.bias[SHADOW_SLOPE].window : need.window;
-    const balance b = {.across = covered ? 0.0 : fmax(need.texels - given->factor * worth, 0.0) * far.diagonal,
-                       .along = given->window_least * near.depth - rest * far.depth,
-                       .offset = given->offset / (1.0 + (light->kind == SHADOW_SUN ? 0.0 : given->offset / near.z)),
-                       .corner = light->kind == SHADOW_SUN || shadow_holds_distance(light)
+    const bool placed = light->kind != SHADOW_SUN;
+    const double other = placed ? far.z : 1.0, first = near.depth / (placed ? near.z : 1.0), last = far.depth / other;
+    const balance b = {.across = covered ? 0.0 : fmax(need.texels - given->factor * worth, 0.0) * far.diagonal / other,
+                       .along = (given->level - rest) * (given->level > rest ? fmin(first, last) : fmax(first, last)),
+                       .ray = given->ray_share,
+                       .offset = given->offset_share,
+                       .corner = !placed || shadow_holds_distance(light)
                                      ? 0.0
                                      : near.corner + need.texels * near.pitch, /* lookups leave a face */
                        .growth = given->growth};

@@ -56,6 +56,10 @@ typedef struct shadow_given {
     double offset_most; /**< and where it is most */
     double units;       /**< of the API, which are part of both window depths; their worth is that of receivers there */
     double rest_most;   /**< window_most without them */
+    double level;       /**< of window_least what is the same along all rays */
+    double ray_share;   /**< the rest, a length along the ray, over the depth of the point; of the sun scene units: the
+                             least of all receivers */
+    double offset_share; /**< l/(z + l) of the offset l, of the sun l, likewise */
     const bias_api *api;
     shadow_growth growth;
 } shadow_given;

@@ -28,7 +28,8 @@ static shadow_light random_light(rng *r) {
     light.triangles.width = light.triangles.height = (int)rng_log(r, 256, 4096);
     light.triangles.slant_hi = rng_uniform(r, 10.0, 80.0);
     light.kernel = 0.5 * (double)(1 + rng_below(r, 5));
-    light.receiver_lo = light.receiver_hi = rng_uniform(r, 2.0, 9.0);
+    light.receiver_lo = rng_uniform(r, 2.0, 9.0);
+    light.receiver_hi = light.receiver_lo * (rng_below(r, 2) ? 1.0 : rng_uniform(r, 1.0, 1.09)); /* an eighth octave */
     assert_int_equal(shadow_light_check(&light), SHADOW_OK);
     return light;
 }
@@ -145,8 +146,10 @@ TEST(verdicts) {
             const long double azimuth = i % 3 ? pi / 4 * (long double)rng_below(&r, 8) : rng_uniform(&r, -3.0, 3.0);
             const double u = rng_uniform(&r, -h, h), v2 = i % 4 ? u : rng_uniform(&r, -h, h);
             const long double length = light.kind == SHADOW_SUN ? 1 : sqrtl(u * u + v2 * v2 + 1);
-            const done d = by_engine(engine->name, &light, unit, bias, normal, angle, length);
-            TALLY(&t[0], is_lit(&light, &d, angle, azimuth, u, v2), "%s %g, %g: kind %d, %g degrees of %g",
+            shadow_light there = light;
+            there.receiver_lo = i % 5 ? rng_uniform(&r, light.receiver_lo, light.receiver_hi) : light.receiver_hi;
+            const done d = by_engine(engine->name, &there, unit, bias, normal, angle, length);
+            TALLY(&t[0], is_lit(&there, &d, angle, azimuth, u, v2), "%s %g, %g: kind %d, %g degrees of %g",
                   engine->name, bias, normal, light.kind, (double)(angle * 180 / pi), v.free);
         }
         if (isnan(v.acne))
@@ -191,6 +194,28 @@ TEST(least) {
     }
     for (int i = 0; i < 2; i++)
         tally_end(&t[i]);
+}
+
+/* A number that is a window depth is enough where the constant bias of that light is: the least of either is the same.
+ */
+TEST(beside_the_constant) {
+    rng r = rng_make("beside the constant");
+    tally t = {.name = "the same"};
+    const bias_api *api = bias_api_find("vulkan-unorm");
+    for (uint64_t n = test_cases(60, 300, 3000); n > 0;) {
+        shadow_light light = random_light(&r);
+        light.receiver_hi = light.receiver_lo * rng_uniform(&r, 1.0, 5.0);
+        if (light.kind == SHADOW_POINT || shadow_light_check(&light) != SHADOW_OK)
+            continue; /* of a cube the constant covers seams */
+        n--;
+        shadow_need need;
+        shadow_need_of(&light, &need);
+        const double least = -shadow_least_bias(shadow_engine_find("three"), &light, api, 0.0);
+        const double share = least / need.bias[SHADOW_CONSTANT].window;
+        TALLY(&t, share > 0.999 && share < 1.01, "kind %d, %g degrees, up to %g: %g", light.kind, light.fov,
+              light.triangles.slant_hi, share);
+    }
+    tally_end(&t);
 }
 
 /* The numbers for another engine do the same at the nearest receivers. */
