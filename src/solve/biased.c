@@ -70,7 +70,7 @@ bool reader_bias(reader *r, setting *group, need *n) {
     return good;
 }
 
-bias_verdict need_bias(const need *n, const dp_setup *asked, dp_setup *setup) {
+bias_verdict need_bias(const need *n, const dp_setup *asked, dp_setup *setup, bool *sloped) {
     dp_setup exact = *asked;
     bias_goal goal = n->goal;
     dp_setup_in(asked, DP_MODEL_EXACT, &exact); /* which every mapping has */
@@ -81,9 +81,11 @@ bias_verdict need_bias(const need *n, const dp_setup *asked, dp_setup *setup) {
     const bias_state none = {.api = n->bias.api}, state = lost ? none : n->bias;
     bias_verdict facing = bias_judge(setup, &state, &goal, lo, n->hi);
     facing.units = lost ? (double)NAN : facing.units;
+    *sloped = false;
     goal.slope = n->goal.slope;
     if (facing.answer != BIAS_ENOUGH || (exact.spec.triangles.width == 0 && goal.slope == 0.0))
         return facing;
     *setup = exact;
+    *sloped = goal.slope > 0.0;
     return bias_judge(setup, &state, &goal, lo, n->hi);
 }

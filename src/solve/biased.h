@@ -10,7 +10,7 @@
 bool reader_bias(reader *r, setting *group, need *n);
 
 /** Judges it facing the camera and, where the camera has a viewport, for its slope or at any slant; *setup is that of
- * the answer, which is the first that is not "enough". */
-bias_verdict need_bias(const need *n, const dp_setup *asked, dp_setup *setup);
+ * the answer, which is the first that is not "enough", and *sloped whether it is of the slope. */
+bias_verdict need_bias(const need *n, const dp_setup *asked, dp_setup *setup, bool *sloped);
 
 #endif

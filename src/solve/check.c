@@ -112,7 +112,7 @@ static bool judge_ties(const check_request *request, const need *n, const dp_set
 }
 
 static void judge_bias(const need *n, const dp_setup *asked, check_verdict *v) {
-    const bias_verdict b = need_bias(n, asked, &v->setup);
+    const bias_verdict b = need_bias(n, asked, &v->setup, &v->sloped);
     v->method = b.answer == BIAS_NOT_ENOUGH ? CHECK_LATTICE : CHECK_GUARANTEE;
     v->answer = b.answer;
     v->passed = b.answer == BIAS_ENOUGH;

@@ -39,6 +39,7 @@ typedef struct check_verdict {
     check_method method;
     bias_answer answer; /**< of a bias; `value` is then the least units that are enough, beside that factor, else NaN */
     double factor;
+    bool sloped;   /**< of a bias: decided for its slope */
     double value;  /**< at z; where `separation` decided over a range, all others are at most 2^-10 above it */
     double z;      /**< the depth where it is worst; NaN where there is none to name */
     uint32_t code; /**< stored there; of no meaning where z is NaN or infinite */

@@ -395,6 +395,18 @@ TEST(biases) {
                          "at = 5; bias = { api = \"gl\"; units = -100; };");
     assert_true(!j.verdicts[0].passed && isnan(j.verdicts[0].value));
     done(&j);
+    /* The slope decides, where surfaces that face the camera have enough; or these do. */
+    for (int i = 0; i < 4; i++) {
+        char what[128];
+        snprintf(what, sizeof what, "at = 10; bias = { api = \"gl\"; units = -%d; slope = 0.001; };", i % 2 ? 0 : 2000);
+        j = judge_one(i < 2 ? "near = 0.1; far = 1000; mapping = \"gl\"; format = \"unorm24\";"
+                            : "near = 0.1; far = 1000; mapping = \"gl\"; format = \"unorm24\"; viewport = [640, 480]; "
+                              "fov = 60; subpixel = 8;",
+                      what);
+        assert_int_equal(j.verdicts[0].sloped, i % 2 == 0);
+        assert_int_equal(j.verdicts[0].passed, i % 2 == 0);
+        done(&j);
+    }
     /* A gap: 1 cm at 10 m is n dz/z^2 of the window and 16777 codes and more. */
     j = judge_one("near = 0.1; far = 1000; mapping = \"gl\"; format = \"unorm24\";",
                   "at = 10; bias = { api = \"gl\"; units = -167; separation = \"1 cm\"; };");

@@ -243,4 +243,24 @@ TEST(status) {
     }
 }
 
+/* A bias is said to be judged where it was: for its slope, beyond surfaces that face the camera. */
+TEST(at_the_slope) {
+    static const char *const units[] = {"-2", "0"}, *const said[] = {"at the slope", "facing"};
+    for (int i = 0; i < 4; i++) {
+        const char *view = i < 2 ? "viewport = [640, 480]; fov = 60.0; subpixel = 8;" : "";
+        const char *path = scratch_text(
+            "slope.need",
+            "cameras = { c = { near = 0.1; far = 1000.0; mapping = \"gl\"; format = \"unorm24\"; %s }; };\n"
+            "requirements = { r = { camera = \"c\"; at = 10.0; bias = { api = \"gl\"; units = %s; slope = 0.001; }; }; "
+            "};",
+            view, units[i % 2]);
+        check_says(1, said[i % 2], "check '%s'", path);
+        check_says(1, "!any slant", "check '%s'", path);
+        check_says(1, said[i % 2], "check --report junit '%s'", path);
+        json_t *root = json_printed(1, "check '%s'", path);
+        assert_string_equal(text_at(root, "requirements[0].surfaces"), said[i % 2]);
+        json_decref(root);
+    }
+}
+
 LIST_TEST(check_apart)

@@ -67,8 +67,14 @@ static const column verdict_columns[] = {
     {PART(verdict, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
     {.kind = COLUMN_END}};
 
+static bool is_facing(const check_verdict *v) {
+    return !v->sloped && !check_is_slanted(v);
+}
+
 static number_text surfaces(const check_verdict *v) {
-    return check_is_slanted(v) ? slant_words(&v->setup.spec.triangles) : (number_text){"facing"};
+    return v->sloped             ? (number_text){"at the slope"}
+           : check_is_slanted(v) ? slant_words(&v->setup.spec.triangles)
+                                 : (number_text){"facing"};
 }
 
 static biased biased_of(const check_verdict *v) {
@@ -98,7 +104,9 @@ static verdict verdict_of(const check_file *f, const check_verdict *v) {
                      .found = *v,
                      .slant = {v->setup.spec.triangles, v->camera->raster != NULL ? v->camera->raster->name : NULL,
                                dp_arith_get(v->setup.spec.arith)->name},
-                     .surfaces = check_is_slanted(v) ? "any slant" : "facing",
+                     .surfaces = is_facing(v) ? "facing"
+                                 : v->sloped  ? "at the slope"
+                                              : "any slant",
                      .code = isfinite(v->z) ? v->code : (double)NAN,
                      .of_bias = biased_of(v),
                      .phrase = kind->note,
@@ -185,7 +193,7 @@ static void say_case(output *out, const check_file *f, const check_verdict *v) {
     const char *const measured = v->camera->gpu.measured;
     snprintf(line, sizeof line, "%d", v->asked->line);
     snprintf(name, sizeof name, "%s (%s%s%s)", v->asked->name, setup_label(&v->setup, false, label),
-             check_is_slanted(v) ? ", " : "", check_is_slanted(v) ? surfaces(v).text : "");
+             is_facing(v) ? "" : ", ", is_facing(v) ? "" : surfaces(v).text);
     snprintf(detail, sizeof detail, "%s%s%s", setup_label(&v->setup, true, full),
              measured[0] != '\0' ? ", measured on " : "", measured);
     junit_case(out, &(junit_row){.classname = v->camera->name,
