@@ -59,6 +59,10 @@ static const word_row rows[] = {
     {"W-buffer", "linear-depth",
      "eye depth over far, stored as it is: steps alike at every distance, but not linear on the screen", NULL,
      "table -F d16 -m d3d,linear\ntable -F d16 -m linear --viewport 1920x1080 --at 10"},
+    {"viewport depth", "minDepth maxDepth MinZ MaxZ glDepthRange gl.depthRange view-model viewmodel",
+     "the window depths into which a viewport puts near and far: a layer with a tenth of them has a tenth of the codes",
+     "OpenGL 4.6, 13.8.1; Vulkan, Controlling the Viewport; Direct3D 11, D3D11_VIEWPORT",
+     "table -F d24 -m d3d --depth-range 0:0.1 --at 1,10\ntexture d.npy -m d3d --depth-range 0.1:1"},
     {"splat", "splats gaussian-splatting 3dgs sort-key splatSortDistanceMapPrecision",
      "viewers sort Gaussian splats by 10 to 24 bits of z over the range of all, cut: as an orthographic depth; which "
      "of "
