@@ -76,6 +76,14 @@ static int parse_mappings(asked_line *line, const option_row *row, const char *v
     return parse_names(line, row, value, group, add_mapping);
 }
 
+/* One that is near no name may be of an engine that is not among them. */
+static int unknown_preset(const option_row *row, const char *name) {
+    char text[NAMES_SIZE];
+    const char *refusal = names_refuse(row->names, name, text);
+    const bool near = strstr(refusal, "did you mean") != NULL;
+    return option_refuse(row, "%s%s", refusal, near ? "" : "; of another engine say --near, --far and --mapping");
+}
+
 static int add_preset(asked_line *line, const option_row *row, const char *text, void *group) {
     camera_asked *c = group;
     (void)line;
@@ -84,7 +92,7 @@ static int add_preset(asked_line *line, const option_row *row, const char *text,
     const size_t at = c->preset_count;
     char error[PRESET_ERROR_SIZE];
     if (!preset_read(text, &c->presets[at], &c->values[at], error))
-        return *error == '\0' ? option_unknown(row, c->values[at].words) : option_refuse(row, "%s", error);
+        return *error == '\0' ? unknown_preset(row, c->values[at].words) : option_refuse(row, "%s", error);
     for (size_t i = 0; i < at; i++)
         if (c->presets[i] == c->presets[at] && strcmp(c->values[i].words, c->values[at].words) == 0)
             return EXIT_FINE;
