@@ -380,6 +380,9 @@ TEST(texture) {
         codes[9] = falls(&v.spec) ? 65535 : 0;
         const char *path = image_of(codes);
         check_pixels(&v, path, codes, z, &reach, &o, &t);
+        check_says(0, "recognised", "texture %s %s", path, v.words);
+        check_says(0, "!direction", "texture %s %s", path, v.words);
+        check_says(0, "!likely", "texture %s %s", path, v.words);
         json_t *root = json_printed(0, "texture %s %s --sky 0", path, v.words);
         const double bound = named_error(root, "eye depth");
         TALLY(&t, bound >= reach * (1 - 1e-12) && bound <= reach * 1.0001 + v.spec.zfar * 0x1p-22,

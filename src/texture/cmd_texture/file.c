@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "camera/depth_range.h"
 #include "report/message.h"
 #include "report/number.h"
 #include "texture/cmd_texture/request.h"
@@ -211,6 +212,16 @@ static int read_metric(const texture_request *o, texture_source *s) {
     return EXIT_FINE;
 }
 
+/* Where the depths lie shows a direction in the range 0 to 1 alone. */
+static void leave_direction(texture_source *s) {
+    const char *towards = recognise_towards(&s->found);
+    char *at = towards != NULL ? strstr(s->why, towards) : NULL;
+    if (at != NULL && at > s->why + 1)
+        at[-2] = '\0'; /* "; " before it */
+    s->found.reversed = -1;
+    s->found.direction = 0;
+}
+
 int texture_image_read(texture_request *o, texture_source *s) {
     image_error error;
     s->path = o->line->operands[0];
@@ -250,5 +261,7 @@ int texture_image_read(texture_request *o, texture_source *s) {
     if (o->image.metric > 0)
         return o->image.stereo.focal > 0 ? read_stereo(o, s) : read_metric(o, s);
     recognise(&s->picture, &s->found, s->why);
+    if (camera_range_moves(o->camera.depth_range))
+        leave_direction(s);
     return EXIT_FINE;
 }
