@@ -101,6 +101,7 @@ static void share(const shadow_engine *engine, const shadow_light *light, double
         const ground g = shadow_ground_at(light, ends[i]);
         const double offset = normal * length_of(engine->normal_in[light->kind], light, &g);
         out->ray_share = fmin(out->ray_share, ray_of(engine, light, &g, value) / (sun ? 1.0 : g.z));
+        out->ray_most = fmax(out->ray_most, ray_of(engine, light, &g, value));
         out->offset_share = fmin(out->offset_share, sun ? offset : offset / (g.z + offset));
     }
 }
@@ -134,7 +135,8 @@ shadow_given shadow_engine_gives(const shadow_engine *engine, const shadow_light
     } else {
         along_ray(light, &g, value * length_of(engine->bias_in[kind], light, &g), &given);
     }
-    given.level = units * low.least + (engine->bias_in[kind] == SHADOW_IN_WINDOW ? value : 0.0);
+    given.added = engine->bias_in[kind] == SHADOW_IN_WINDOW ? value : 0.0;
+    given.level = units * low.least + given.added;
     share(engine, light, value, normal * engine->normal_scale[kind] * by, &given);
     given.window_most = given.rest_most + units * (isfinite(high.most) ? high.most : high.least);
     return given;
@@ -253,7 +255,10 @@ shadow_verdict shadow_judge(const shadow_light *light, const shadow_given *given
     const double turned = grown(given->growth, shadow_radians(most));
     const bool sines = light->kind == SHADOW_SUN || shadow_holds_distance(light);
     const double sine = dp_sin(shadow_radians(most));
-    shadow_bias set = {.window = given->rest_most,
+    /* A point that is moved by a length has a gap of that to its caster, whose depth is the smaller one. */
+    const double length = given->ray_most,
+                 depths = placed && !shadow_holds_distance(light) ? 1.0 + length / far.z : 1.0;
+    shadow_bias set = {.window = given->added + length / (far.depth * depths),
                        .factor = given->factor,
                        .offset = given->offset_most == 0.0
                                      ? 0.0
@@ -262,8 +267,6 @@ shadow_verdict shadow_judge(const shadow_light *light, const shadow_given *given
     double normal;
     if (given->units > 0.0)
         set.window += shadow_casters_window(light, &set, given->api, given->units);
-    else
-        set.window = given->window_most;
     shadow_gap_at(light, &set, most, &v.gap, &normal);
     return v;
 }

@@ -59,6 +59,8 @@ typedef struct shadow_given {
     double level;       /**< of window_least what is the same along all rays */
     double ray_share;   /**< the rest, a length along the ray, over the depth of the point; of the sun scene units: the
                              least of all receivers */
+    double added,
+        ray_most;        /**< for gaps: the window depth without units and lengths; the longest of these, scene units */
     double offset_share; /**< l/(z + l) of the offset l, of the sun l, likewise */
     const bias_api *api;
     shadow_growth growth;

@@ -218,6 +218,24 @@ TEST(beside_the_constant) {
     tally_end(&t);
 }
 
+/* A point that is moved towards the light by a length has that for a gap: along the axis just that, along rays that
+ * lean no more than their length over their depth, and rounding. */
+TEST(gap_of_a_length) {
+    rng r = rng_make("gap of a length");
+    tally t = {.name = "gap"};
+    const bias_api *api = bias_api_find("vulkan-unorm");
+    for (uint64_t n = test_cases(100, 500, 5000); n > 0; n--) {
+        const shadow_light light = random_light(&r);
+        const double length = light.receiver_lo * rng_log(&r, 1e-3, 3.0);
+        const double tangent = light.kind == SHADOW_SUN ? 0.0 : tan(light.fov * (double)pi / 360.0);
+        const shadow_given given = shadow_engine_gives(shadow_engine_find("bevy"), &light, api, length, 0.0);
+        const double gap = shadow_judge(&light, &given).gap;
+        TALLY(&t, gap >= length * (1.0 - 1e-12) && gap <= length * sqrt(1.0 + 2.0 * tangent * tangent) * (1.0 + 1e-9),
+              "kind %d, %g degrees: %g of %g at %g", light.kind, light.fov, gap, length, light.receiver_hi);
+    }
+    tally_end(&t);
+}
+
 /* The numbers for another engine do the same at the nearest receivers. */
 TEST(same_elsewhere) {
     static const char *const told[] = {"three", "unity-urp", "bevy", "babylon", "playcanvas", "filament", "godot"};
