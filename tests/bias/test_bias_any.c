@@ -266,6 +266,7 @@ TEST(rasterized) {
     const char *file = scratch_file("fights.png");
     json_t *root = json_printed(0, "%s --units 2 --render %s", line, file);
     assert_string_equal(text_at(root, "setups[0].sloped.answer"), "not enough");
+    assert_true(number_at(root, "triangles.width") == 1920 && number_at(root, "triangles.height") == 1080);
     assert_true(number_at(root, "setups[0].drawn.fights") > 100);
     assert_true(number_at(root, "setups[0].drawn.pixels") > number_at(root, "setups[0].drawn.fights"));
     assert_true(number_at(root, "setups[0].drawn.code_moved") <= number_at(root, "setups[0].drawn.code"));

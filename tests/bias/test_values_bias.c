@@ -260,4 +260,37 @@ TEST(one_answer) {
         }
 }
 
+/* What the list of interfaces says of one unit of a 24-bit target is what a bias is computed with. */
+TEST(units_as_listed) {
+    static const struct {
+        const char *rule;
+        double r, most;
+    } told[] = {{"1;", 1, 1},
+                {"1/(2^N - 1) as binary32;", 0x1.000002p-24, 0x1.000002p-24}, /* 2^-24 (1 + 2^-24 + ...) in 24 digits */
+                {"2^-N;", 0x1p-24, 0x1p-24},
+                {"at most 2 x 2^-N;", 0x1p-24, 0x1p-23},
+                {"the implementation's choice;", 0x1p-24, (double)NAN}};
+    json_t *list = json_printed(0, "list apis");
+    json_t *items = json_object_get(list, "items");
+    size_t seen[5] = {0};
+    for (size_t i = 0; i < json_array_size(items); i++) {
+        json_t *const item = json_array_get(items, i);
+        const char *const rule = text_at(item, "rule") + strlen("unorm: r = ");
+        json_t *root = json_printed(0, "bias --api %s -F d24 -m d3d --at 10", text_at(item, "name"));
+        for (size_t k = 0; k < 5; k++)
+            if (strncmp(rule, told[k].rule, strlen(told[k].rule)) == 0) {
+                const double most = number_at(root, "setups[0].rows[0].r_most");
+                assert_true(number_at(root, "setups[0].rows[0].r") == told[k].r);
+                assert_true(isnan(told[k].most) ? isnan(most) : most == told[k].most);
+                seen[k]++;
+                break;
+            } else {
+                assert_true(k < 4);
+            }
+        json_decref(root);
+    }
+    assert_true(seen[0] > 0 && seen[1] > 0 && seen[2] > 0);
+    json_decref(list);
+}
+
 LIST_TEST(check_apart)

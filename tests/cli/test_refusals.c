@@ -449,6 +449,12 @@ TEST(test_refusals) {
     tally_end(&t);
 }
 
+/* Planes that nearly meet are told with the digits in which they differ. */
+TEST(test_digits_of_planes) {
+    check_says(2, "got near 0.30000000000000004, far 0.3\n", "table -n 0.30000000000000004 -f 0.3");
+    check_says(2, "got near 0.3, far 0.3\n", "table -n 0.3 -f 0.3");
+}
+
 /* A range needs two binary32 depths in it: those between the middles of their neighbours, none, one or two. */
 TEST(test_depths_of_a_range) {
     static const struct {

@@ -5,6 +5,7 @@
  */
 #include "convert/convert.h"
 #include "oracle.h"
+#include "printed.h"
 #include "support.h"
 
 typedef struct copy {
@@ -287,6 +288,29 @@ TEST(factors_of_programs) {
     f = found(names, "half", 0, true, false);
     assert_int_equal(f.changed, 4194303); /* the last, which is odd, is kept */
     assert_int_equal(f.first.code[0], 8388609);
+}
+
+/* Each way back that takes a factor is tried by 2^24, too, and told with what comes of that. */
+TEST(ways_side_by_side) {
+    static const char *const scaled[] = {"cut", "half", "round"};
+    json_t *root = json_printed(0, "convert d24 fp32 d24");
+    json_t *ways = json_object_get(root, "ways");
+    for (size_t i = 0; i < 3; i++) {
+        char name[32];
+        size_t seen = 0;
+        snprintf(name, sizeof name, "%s:16777216", scaled[i]);
+        for (size_t k = 0; k < json_array_size(ways); k++) {
+            json_t *const way = json_array_get(ways, k);
+            if (strcmp(text_at(way, "write"), name) != 0)
+                continue;
+            const char *const names[3] = {"unorm24", "fp32", "unorm24"};
+            assert_true(number_at(way, "changed") == (double)found(names, scaled[i], 0x1p24, false, false).changed);
+            assert_true(i > 0 || number_at(way, "first") == 8388608);
+            seen++;
+        }
+        assert_int_equal(seen, 1);
+    }
+    json_decref(root);
 }
 
 /* 16 bits in 24: c 2^8 is the largest whose high bits are c. */
