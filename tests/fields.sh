@@ -27,6 +27,7 @@ all_named() { # all_named COMMAND ARGUMENTS...
 all_named table --at 10 -m d3d,log -F unorm24
 all_named table --at 10 --model auto
 all_named table --at 10 --depth-range 0:.1
+all_named table --at 10 --depth-range 0:.1,.1:1
 all_named table --at 10 --model float
 all_named table --at 10 --tolerance 1%
 all_named list methods --tolerance 1%

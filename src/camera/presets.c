@@ -76,7 +76,7 @@ static const preset rows[] = {
      1.0, 5e8, DP_MAPPING_CESIUM, "unorm24", "m", 60, PRESET_LARGER, "spec-gl", "gl", "glsl", "format", CHECKED},
     {"maplibre", "maplibre-gl maplibre-gl-js",
      "MapLibre GL JS 6.17, the flat map with neither terrain nor padding; of the depth range flat layers take 14 codes "
-     "of 2^16 each and 3D layers the rest",
+     "of 2^16 each and 3D layers the rest: 'depthprec help depthRangeFor3D'",
      "MapLibre GL JS, src/geo/projection/mercator_transform.ts (_calculateNearFarZ), mercator_utils.ts, lng_lat.ts",
      COMPUTED, DP_MAPPING_GL, "unorm24", "m", FOV_OF_MAPS, PRESET_VERTICAL, "spec-gl", "gl", "glsl", "format", TODAY,
      &computed_maplibre},

@@ -63,6 +63,11 @@ static const word_row rows[] = {
      "the window depths into which a viewport puts near and far: a layer with a tenth of them has a tenth of the codes",
      "OpenGL 4.6, 13.8.1; Vulkan, Controlling the Viewport; Direct3D 11, D3D11_VIEWPORT",
      "table -F d24 -m d3d --depth-range 0:0.1 --at 1,10\ntexture d.npy -m d3d --depth-range 0.1:1"},
+    {"depthRangeFor3D", "depthEpsilon numSublayers getDepthModeFor3D getDepthModeForSublayer",
+     "the depth range of MapLibre's 3D layers, 0 to 1 - 14 (L + 2)/65536 of L layers; each flat one before them has 14 "
+     "single depths 1/65536 apart, as its tiles' zooms may overlap",
+     "MapLibre GL JS, src/render/painter.ts",
+     "table --preset maplibre:zoom=14,height=800 --depth-range 0:0.97821,0:1 --at 5km"},
     {"splat", "splats gaussian-splatting 3dgs sort-key splatSortDistanceMapPrecision",
      "viewers sort Gaussian splats by 10 to 24 bits of z over the range of all, cut: as an orthographic depth; which "
      "of "

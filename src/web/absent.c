@@ -20,6 +20,7 @@
 #include "quantity/cmd_table/constants.h"
 #include "quantity/cmd_table/in_preset.h"
 #include "quantity/cmd_table/levels.h"
+#include "quantity/cmd_table/slices.h"
 #include "scene/cmd_scene/drawing.h"
 #include "scene/find.h"
 #include "shader/pack.h"
@@ -105,6 +106,22 @@ int range_complete(const camera_asked *c) {
     return EXIT_FINE;
 }
 
+int parse_depth_ranges(asked_line *line, const option_row *row, const char *value, void *group) {
+    return absent_option(line, row, value, group);
+}
+
+const char *setup_slice(const camera_asked *c, const dp_setup *setup, char out[SETUP_RANGE_SIZE]) {
+    (void)c;
+    (void)setup;
+    return setup_range(NULL, out);
+}
+
+bool setup_repeats(const setups *all, size_t i) {
+    (void)all;
+    (void)i;
+    return false;
+}
+
 bool camera_range_moves(const double range[2]) {
     (void)range;
     return false;
@@ -132,6 +149,28 @@ bool camera_range_refused(const dp_spec *spec, dp_status status, camera_fault *f
     (void)status;
     (void)fault;
     return false;
+}
+
+const column slice_columns[] = {{.kind = COLUMN_END}};
+
+double slice_codes(const dp_setup *setup) {
+    (void)setup;
+    return 0.0;
+}
+
+double slice_share(const dp_setup *setup) {
+    return slice_codes(setup);
+}
+
+bool slices_shared(const setups *all, size_t index, slice_pair *out) {
+    (void)out;
+    return setup_repeats(all, index);
+}
+
+void slices_say(page *p, const camera_asked *c, const setups *all) {
+    (void)p;
+    (void)c;
+    (void)all;
 }
 
 int constants_write(const table_request *o) {

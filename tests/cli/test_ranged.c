@@ -9,7 +9,7 @@
 
 typedef struct viewport {
     dp_spec spec;
-    char words[256]; /* the options that ask for it */
+    char words[320]; /* the options that ask for it */
 } viewport;
 
 static const char *const mappings[] = {[DP_MAPPING_D3D] = "d3d",
@@ -124,6 +124,127 @@ TEST(chosen) {
     assert_string_equal(text_at(root, "setups[0].auto.model"), "float");
     assert_null(node_at(root, "setups[0].auto.neglected.staged"));
     json_decref(root);
+}
+
+/* ---- Several ranges ---------------------------------------------------------------------------------------------- */
+
+/* Of each code, whether some depth of the range is rounded to it. @return how many are */
+static uint32_t mark_codes(const dp_spec *s, bool *is_code) {
+    const dp_format *format = &s->format;
+    const float one = (float)s->depth_range[0], other = (float)s->depth_range[1];
+    const double lo = (double)fminf(one, other), hi = (double)fmaxf(one, other);
+    uint32_t count = 0;
+    mpq_t below, above, from, to;
+    mpq_inits(below, above, from, to, NULL);
+    mpq_set_d(from, lo);
+    mpq_set_d(to, hi);
+    for (uint32_t code = 0; code <= format->code_max; code++) {
+        if (code > 0)
+            oracle_boundary(below, format, DP_ROUND_NEAREST, code);
+        if (code < format->code_max)
+            oracle_boundary(above, format, DP_ROUND_NEAREST, code + 1);
+        is_code[code] =
+            ((code == 0 || mpq_cmp(below, to) < 0) && (code == format->code_max || mpq_cmp(above, from) > 0));
+        is_code[code] = is_code[code] || code == oracle_encode(format, DP_ROUND_NEAREST, lo) ||
+                        code == oracle_encode(format, DP_ROUND_NEAREST, hi);
+        count += is_code[code];
+    }
+    mpq_clears(below, above, from, to, NULL);
+    return count;
+}
+
+/* The depths of a range that are stored as codes from one to another. */
+static void check_span(const dp_spec *s, uint32_t from, uint32_t to, const json_t *span, const char *words, tally *t) {
+    oracle o;
+    oracle_cell first, last;
+    oracle_init(&o, s);
+    oracle_cell_init(&first);
+    oracle_cell_init(&last);
+    oracle_cell_of(&o, &first, falls(s) ? to : from);
+    oracle_cell_of(&o, &last, falls(s) ? from : to);
+    const double lo = oracle_double(first.lo), hi = oracle_double(last.hi), per = reciprocals_per_depth(s) * 0x1p-50;
+    TALLY(t, fabs(number_at(span, "z_lo") - lo) <= lo * (1e-12 + lo * per), "%s: from %.17g", words, lo);
+    TALLY(t, fabs(number_at(span, "z_hi") - hi) <= hi * (1e-12 + hi * per), "%s: to %.17g", words, hi);
+    TALLY(t, number_at(span, "lo") == s->depth_range[0] && number_at(span, "hi") == s->depth_range[1],
+          "%s: the range is not said", words);
+    oracle_cell_clear(&first);
+    oracle_cell_clear(&last);
+    oracle_clear(&o);
+}
+
+/* Another range, half of the time one that begins where the first ends. */
+static viewport beside(const viewport *v, rng *r) {
+    viewport other = *v;
+    double *e = other.spec.depth_range;
+    do {
+        rng_range(r, e);
+        if (rng_below(r, 2))
+            e[0] = v->spec.depth_range[1];
+        for (int i = 0; i < 2; i++)
+            e[i] = (double)(float)e[i];
+    } while (!(fabs(e[1] - e[0]) >= 2e-6 && fmin(e[0], e[1]) > 2e-6) ||
+             memcmp(e, v->spec.depth_range, sizeof v->spec.depth_range) == 0);
+    const size_t length = strlen(v->words);
+    snprintf(other.words + length, sizeof other.words - length, ",%.17g:%.17g", e[0], e[1]);
+    return other;
+}
+
+TEST(slices) {
+    enum { CODES_MOST = 1 << 15 };
+    static bool one[CODES_MOST], other[CODES_MOST];
+    const dp_format formats[] = {oracle_unorm(10), oracle_unorm(13), oracle_float(5, 6, 15), oracle_float(4, 8, 7)};
+    rng r = rng_make("slices");
+    tally t = {.name = "codes of several depth ranges"};
+    for (uint64_t i = test_cases(12, 80, 400); i > 0; i--) {
+        const viewport v = any_viewport(&r, formats, 4), w = beside(&v, &r);
+        const uint32_t counts[] = {mark_codes(&v.spec, one), mark_codes(&w.spec, other)};
+        uint32_t both = 0, from = 0, to = 0;
+        for (uint32_t code = 0; code <= v.spec.format.code_max; code++)
+            if (one[code] && other[code]) {
+                from = both++ == 0 ? code : from;
+                to = code;
+            }
+        json_t *root = json_printed(0, "table %s", w.words);
+        for (int k = 0; k < 2; k++)
+            TALLY(&t, number_at(root, "setups[%d].worst.codes", k) == counts[k], "%s: %u codes of range %d", w.words,
+                  counts[k], k);
+        const json_t *pair = node_at(root, "shared[0]");
+        TALLY(&t, (pair != NULL) == (both > 0), "%s: %u codes are shared", w.words, both);
+        if (pair != NULL && both > 0) {
+            TALLY(&t,
+                  number_at(pair, "codes") == both && number_at(pair, "code_from") == from &&
+                      number_at(pair, "code_to") == to,
+                  "%s: %u codes from %u to %u are shared", w.words, both, from, to);
+            check_span(&v.spec, from, to, node_at(pair, "first"), w.words, &t);
+            check_span(&w.spec, from, to, node_at(pair, "second"), w.words, &t);
+        }
+        json_decref(root);
+    }
+    tally_end(&t);
+}
+
+/* In text, beside each other, each with what it keeps; and each alone as it is without the other. */
+TEST(compared) {
+    check_says(0, "unorm16 d3d 0:0.1          6555     10", "table --depth-range 0:.1,.1:1 -F d16 -m d3d");
+    check_says(0, "fp16 d3d 0.1:1             3483   22.7", "table --depth-range 0:.1,.1:1 -F fp16 -m d3d");
+    check_says(0, "code 6554 is stored for", "table --depth-range 0:.1,.1:1 -F d16 -m d3d");
+    check_says(0, "6554 codes, 6554 to 13107,", "table --depth-range 0:.2,.1:1 -F d16 -m d3d");
+    check_says(0, "No two of these ranges share a code", "table --depth-range 0:.1,.2:1 -F d16 -m d3d");
+    check_says(0, "unorm16 d3d 1:0", "table --depth-range 1:0,0:1 -F d16 -m d3d");
+    json_t *both = json_printed(0, "table --depth-range 0:.1,.1:1 -F d16 -m d3d,reversed --at 5");
+    for (int i = 0; i < 4; i++) {
+        json_t *alone = json_printed(0, "table --depth-range %s -F d16 -m %s --at 5", i % 2 == 0 ? "0:.1" : ".1:1",
+                                     i < 2 ? "d3d" : "reversed");
+        assert_true(json_equal(node_at(both, "setups[%d]", i), node_at(alone, "setups[0]")));
+        json_decref(alone);
+    }
+    assert_string_equal(text_at(both, "shared[1].mapping"), "reversed");
+    assert_null(node_at(both, "shared[2]"));
+    json_decref(both);
+    printed text = print_of("table --depth-range 0:.1,.1:1 -F d16 -m d3d --at 5 --csv");
+    assert_non_null(strstr(text.out, ",depth_range_lo,depth_range_hi,"));
+    assert_non_null(strstr(text.out, ",0.1,1,5,"));
+    printed_free(&text);
 }
 
 /* ---- The guarantee ----------------------------------------------------------------------------------------------- */
@@ -476,6 +597,13 @@ TEST(refusals) {
         {"--depth-range 0:0", "must be LO:HI", 2},
         {"--depth-range .5:.5000001", "must be two window depths", 2},
         {"--depth-range 5e-7:1", "must be two window depths", 2},
+        {"--depth-range 0:.5,", "must be LO:HI, got '0:.5,'", 2},
+        {"--depth-range 0:.5,.5", "must be LO:HI, two window depths from 0 to 1, got '.5'", 2},
+        {"--depth-range 0:.5,.5:2", "must be two window depths", 2},
+        {"--depth-range 0:1,0:.5 --viewport 640x480", "conflicts with --viewport", 2},
+        {"--depth-range 0:1,1:0 --preset unity", "must not fall in d3d11", 2},
+        {"--depth-range 0:1,1:0 --platform chrome-d3d", "must not fall in webgpu", 2},
+        {"--depth-range 0:1,0:.5 -m log", "needs one of the mappings d3d, gl, reversed, gl-reversed, got log", 2},
         {"--depth-range 0:.5 -m log", "needs one of the mappings d3d, gl, reversed, gl-reversed, got log", 2},
         {"--depth-range 0:.5 -m linear", "got linear, whose depth a shader writes", 2},
         {"--depth-range 0:.5 -m d3d --model staged", "must be exact, float or auto", 2},
@@ -495,6 +623,8 @@ TEST(refusals) {
     CHECK_REFUSED("table", rows);
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
         check_says(2, "(d - LO)/(HI - LO)", "%s --depth-range 0:.5", lines[i]);
+    check_says(2, "must be one range for bias, got '0:.5,.5:1': table compares several",
+               "bias --depth-range 0:.5,.5:1");
     check_says(2, "must not fall in d3d12", "bias --api d3d12 --depth-range 1:0");
     check_says(0, "", "bias --api vulkan --depth-range 1:0");
     check_says(2, "conflicts with --rasterize", "zfight --rasterize --depth-range 0:.5");

@@ -13,7 +13,7 @@
 #include "raster/raster.h"
 #include "shader/camera.h"
 
-enum { CAMERA_FARS_MAX = 4 };
+enum { CAMERA_FARS_MAX = 4, CAMERA_RANGES_MAX = 16 };
 
 typedef struct camera_asked {
     asked_line *line;
@@ -26,6 +26,8 @@ typedef struct camera_asked {
     lengths lengths;
     double fars[CAMERA_FARS_MAX]; /**< of the figures that take several, in the order given */
     size_t far_count;
+    double ranges[CAMERA_RANGES_MAX][2]; /**< depth ranges, in the order given, each once; depth_range is the first */
+    size_t range_count;                  /**< 0 where none was given */
     bool budgeted;             /**< only budgets are asked for: of logarithmic mappings, too, which have no codes in
                                     binary32 */
     double tolerance;          /**< a share */
@@ -55,7 +57,7 @@ extern const option_use camera_planes[], camera_uses[], camera_projected[], came
         WITHOUT("m where a length has a unit"))
 
 /** Languages that some commands have in place of the rows'. */
-option_parser parse_presets, parse_fars, parse_slant_or_plane;
+option_parser parse_presets, parse_fars, parse_slant_or_plane, parse_depth_ranges;
 
 /** Completes options by others, once all are read; several presets are resolved. @return EXIT_FINE, or EXIT_USAGE
  * after one line on stderr */

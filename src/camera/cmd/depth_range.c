@@ -6,16 +6,35 @@
 #include "camera/cmd/setups.h"
 #include "camera/depth_range.h"
 
-/* Of either order; camera_make() says what viewports take. */
-static int parse_depth_range(asked_line *line, const option_row *row, const char *value, void *group) {
+/* Of either order; camera_make() and range_complete() say what viewports take. */
+static int add_depth_range(asked_line *line, const option_row *row, const char *value, void *group) {
     camera_asked *c = group;
     const size_t split = strcspn(value, ":");
+    double ends[2];
     (void)line;
-    return value[split] != '\0' && number_parse_part(value, split, NUMBER_FINITE, &c->depth_range[0]) &&
-                   number_parse(value + split + 1, NUMBER_FINITE, &c->depth_range[1]) &&
-                   c->depth_range[0] != c->depth_range[1]
-               ? EXIT_FINE
-               : option_refuse(row, "must be LO:HI, two window depths from 0 to 1, got '%s'", value);
+    if (value[split] == '\0' || !number_parse_part(value, split, NUMBER_FINITE, &ends[0]) ||
+        !number_parse(value + split + 1, NUMBER_FINITE, &ends[1]) || ends[0] == ends[1])
+        return option_refuse(row, "must be LO:HI, two window depths from 0 to 1, got '%s'", value);
+    for (size_t i = 0; i < c->range_count; i++)
+        if (c->ranges[i][0] == ends[0] && c->ranges[i][1] == ends[1])
+            return EXIT_FINE;
+    if (c->range_count == CAMERA_RANGES_MAX)
+        return option_refuse(row, "must be at most %d ranges, got '%s' too", CAMERA_RANGES_MAX, value);
+    memcpy(c->ranges[c->range_count++], ends, sizeof ends);
+    memcpy(c->depth_range, c->ranges[0], sizeof ends);
+    return EXIT_FINE;
+}
+
+int parse_depth_ranges(asked_line *line, const option_row *row, const char *value, void *group) {
+    camera_asked *c = group;
+    c->range_count = 0;
+    return parse_names(line, row, value, group, add_depth_range);
+}
+
+static int parse_depth_range(asked_line *line, const option_row *row, const char *value, void *group) {
+    return strchr(value, ',') == NULL ? parse_depth_ranges(line, row, value, group)
+                                      : option_refuse(row, "must be one range for %s, got '%s': table compares several",
+                                                      line->command->name, value);
 }
 
 /* clang-format off */
@@ -46,6 +65,34 @@ const char *setup_range(const setup_fields *f, char out[SETUP_RANGE_SIZE]) {
     return out;
 }
 
+const char *setup_slice(const camera_asked *c, const dp_setup *setup, char out[SETUP_RANGE_SIZE]) {
+    const double *ends = setup->spec.depth_range;
+    *out = '\0';
+    if (c->range_count > 1)
+        snprintf(out, SETUP_RANGE_SIZE, " %s:%s", number_full(ends[0]).text, number_full(ends[1]).text);
+    return out;
+}
+
+bool setup_repeats(const setups *all, size_t i) {
+    const dp_spec *spec = &all->items[i].spec, *last = i > 0 ? &all->items[i - 1].spec : NULL;
+    return last != NULL && all->cameras[i] == all->cameras[i - 1] && spec->mapping == last->mapping &&
+           strcmp(spec->format.name, last->format.name) == 0;
+}
+
+/* Those behind the first, which camera_make() checks: what viewports take, and the APIs of presets or a platform. */
+static int check_others(const camera_asked *c) {
+    camera_fault fault = {.key = NULL};
+    for (size_t i = 1; i < c->range_count; i++) {
+        bool fine = camera_range_takes(c->platform != NULL ? c->platform->api : NULL, c->ranges[i], &fault) &&
+                    (!option_given(c->line, "viewport") || camera_range_views(c->ranges[i], "viewport", &fault));
+        for (size_t k = 0; k < c->preset_count && fine && c->platform == NULL; k++)
+            fine = camera_range_takes(c->presets[k]->api, c->ranges[i], &fault);
+        if (!fine)
+            return camera_refuse(&fault);
+    }
+    return EXIT_FINE;
+}
+
 int range_complete(const camera_asked *c) {
     static const struct {
         const char *option, *why;
@@ -57,5 +104,5 @@ int range_complete(const camera_asked *c) {
     for (size_t i = 0; i < sizeof others / sizeof others[0] && option_given(c->line, "depth-range"); i++)
         if (option_given(c->line, others[i].option))
             return option_error("depth-range", "conflicts with --%s: %s", others[i].option, others[i].why);
-    return EXIT_FINE;
+    return check_others(c);
 }

@@ -61,6 +61,21 @@ int setup_decided(const camera_asked *c) {
                         c->platform->name);
 }
 
+/* In each depth range. */
+static int add_setup(const camera_asked *c, dp_spec *spec, size_t camera, setups *out) {
+    dp_status status = DP_OK;
+    for (size_t i = 0; status == DP_OK && (i == 0 || i < c->range_count); i++) {
+        if (i > 0)
+            memcpy(spec->depth_range, c->ranges[i], sizeof spec->depth_range);
+        out->cameras[out->count] = camera;
+        status = dp_setup_init(&out->items[out->count++], spec);
+    }
+    if (status != DP_OK)
+        return setup_refused(c, spec, status);
+    memcpy(spec->depth_range, c->depth_range, sizeof spec->depth_range);
+    return EXIT_FINE;
+}
+
 static int add_setups(const camera_asked *c, size_t camera, setups *out) {
     dp_spec spec = camera_to_spec(&c->said);
     for (size_t f = 0; f < c->format_count; f++)
@@ -74,12 +89,8 @@ static int add_setups(const camera_asked *c, size_t camera, setups *out) {
             spec.model = c->budgeted && shader ? DP_MODEL_EXACT : c->model;
             if (c->budgeted && check_budget(c, &spec) != EXIT_FINE)
                 return EXIT_USAGE;
-            if (setup_kept(c, &spec.format) != EXIT_FINE)
+            if (setup_kept(c, &spec.format) != EXIT_FINE || add_setup(c, &spec, camera, out) != EXIT_FINE)
                 return EXIT_USAGE;
-            out->cameras[out->count] = camera;
-            const dp_status status = dp_setup_init(&out->items[out->count++], &spec);
-            if (status != DP_OK)
-                return setup_refused(c, &spec, status);
         }
     return EXIT_FINE;
 }
@@ -92,7 +103,8 @@ bool setups_have_log(const setups *all) {
 }
 
 int setups_make(const camera_asked *c, setups *out) {
-    const size_t cameras = camera_count(c), most = cameras * CAMERA_FORMATS_MAX * DP_MAPPING_COUNT;
+    const size_t cameras = camera_count(c), ranges = c->range_count > 0 ? c->range_count : 1,
+                 most = cameras * CAMERA_FORMATS_MAX * DP_MAPPING_COUNT * ranges;
     int status = EXIT_FINE;
     camera_fault fault = {.key = NULL};
     *out = (setups){.items = malloc(most * sizeof *out->items), .cameras = malloc(most * sizeof *out->cameras)};
@@ -281,7 +293,7 @@ void clipping_say(const dp_setup *setup, double znear, double zfar, const char *
 void clipping_warn(const setups *all) {
     for (size_t i = 0; i < all->count; i++) {
         const clipping c = clipping_of(&all->items[i]);
-        if (c.loses)
+        if (c.loses && !setup_repeats(all, i)) /* a depth range comes after clipping */
             clipping_say(&all->items[i], c.znear, c.zfar, "");
     }
 }

@@ -16,9 +16,9 @@ typedef struct setups {
 
 /**
  * Expands formats x mappings of each camera, format-major in the order given (fp16 d3d, fp16 reversed, fp32 d3d, ...),
- * and checks each with dp_setup_init(); where only budgets are asked for, those of logarithmic mappings are in the
- * model exact, for they have no codes in binary32. depth24plus stands for two formats, so it gives two set-ups per
- * mapping.
+ * each in all of its depth ranges, and checks each with dp_setup_init(); where only budgets are asked for, those of
+ * logarithmic mappings are in the model exact, for they have no codes in binary32. depth24plus stands for two formats,
+ * so it gives two set-ups per mapping.
  *
  * @return EXIT_FINE, or EXIT_USAGE after one line on stderr that names the option at fault
  */
@@ -95,6 +95,12 @@ number_text setup_far(const setup_fields *f);
 
 /** ", depth range 0:0.1", or "" where it is 0 to 1. @return out */
 const char *setup_range(const setup_fields *f, char out[SETUP_RANGE_SIZE]);
+
+/** Whether set-up i is the one before it in another depth range. */
+bool setup_repeats(const setups *all, size_t i);
+
+/** " 0:0.1", where several ranges were asked for; else "". @return out */
+const char *setup_slice(const camera_asked *c, const dp_setup *setup, char out[SETUP_RANGE_SIZE]);
 
 /** The model of its separations: a shader's are in binary32, too. */
 dp_model setup_model(const dp_setup *setup);

@@ -20,6 +20,7 @@
 #include "quantity/cmd_table/lookup.h"
 #include "quantity/cmd_table/per_vertex.h"
 #include "quantity/cmd_table/request.h"
+#include "quantity/cmd_table/slices.h"
 #include "report/number.h"
 #include "report/sentence.h"
 
@@ -84,6 +85,7 @@ typedef struct table {
     const dp_triangles *assumed; /* the view of those at a slant; null where it was given, or there is none */
     choosing choice;
     choice_fields chosen;
+    slice_pair shared; /* by two depth ranges */
 } table;
 
 /* Are there depths among those asked about whose cell a plane cuts? */
@@ -264,7 +266,8 @@ enum {
     WITH_TRIANGLES = 16,
     ONE_CAMERA = 32,
     PER_VERTEX = 64,
-    IN_PRESET = 128
+    IN_PRESET = 128,
+    SLICED = 256
 };
 
 static const column row_columns[] = {
@@ -333,6 +336,8 @@ static const column setup_report[] = {
     {PART(table, each.triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true,
      .when = WITH_PRESETS},
     {FIELD(table, each.fields.arith, "arith", ""), .only = AS_CSV, .when = WITH_ARITH},
+    {FIELD(table, setup.spec.depth_range[0], "depth_range_lo", ""), .only = AS_CSV, .when = SLICED},
+    {FIELD(table, setup.spec.depth_range[1], "depth_range_hi", ""), .only = AS_CSV, .when = SLICED},
     {FIELD(table, interval.name, "method", ""), .only = AS_JSON, .when = WITH_TOLERANCE},
     {FIELD(table, interval.claim, "claim", ""), .digits = 3, .upward = true, .only = AS_JSON, .when = WITH_TOLERANCE},
     {LIST("rows", row_columns, next_row)},
@@ -405,7 +410,7 @@ static unsigned conditions_of_words(const table *t) {
            (dp_is_computed(&t->each.full) ? IS_COMPUTED : 0) | (dp_format_is_rg(&t->setup.spec.format) ? IS_RG : 0) |
            (t->planes.loses ? LOSES : 0) | (t->written.class <= t->written.depth ? BELOW_SEPARATION : 0) |
            (option_given(t->o->line, "tolerance") ? TOLERANCE : 0) | (t->interval.claim == 0 ? EXACTLY : 0) |
-           (option_given(t->o->line, "range") ? OF_RANGE : 0);
+           (option_given(t->o->line, "range") || t->o->camera.range_count > 1 ? OF_RANGE : 0);
 }
 
 static void say_notes(page *p, void *item) {
@@ -417,16 +422,23 @@ static void say_notes(page *p, void *item) {
         setup_say_code(p, &t->each.setup->spec);
 }
 
+static void *next_shared(void *of, size_t i) {
+    table *t = of;
+    return slices_shared(&t->each.all, i, &t->shared) ? &t->shared : NULL;
+}
+
 static const column columns[] = {{PART(table, each.triangles, "triangles", slant_columns), .only = AS_JSON,
                                   .pointed = true, .optional = true, .when = ONE_CAMERA},
                                  {LIST("setups", setup_report, next_setup), .head = say_reach, .notes = say_notes},
+                                 {LIST("shared", slice_columns, next_shared), .only = AS_JSON, .when = SLICED},
                                  {.kind = COLUMN_END}};
 
 /* The columns of these set-ups: the variant of arithmetic only where some set-up has that model. */
 static unsigned conditions(const table *t) {
     unsigned when = (option_given(t->o->line, "tolerance") ? WITH_TOLERANCE : 0) | (t->o->out.full ? VERBOSE : 0) |
                     (t->o->camera.preset_count > 1 ? WITH_PRESETS : ONE_CAMERA) |
-                    (t->each.triangles != NULL ? WITH_TRIANGLES : 0) | (t->in_preset.parameter != NULL ? IN_PRESET : 0);
+                    (t->each.triangles != NULL ? WITH_TRIANGLES : 0) |
+                    (t->in_preset.parameter != NULL ? IN_PRESET : 0) | (t->o->camera.range_count > 1 ? SLICED : 0);
     for (size_t i = 0; i < t->each.all.count; i++) {
         when |= t->each.all.items[i].spec.model == DP_MODEL_FLOAT ? WITH_ARITH : 0;
         when |= per_vertex_matters(&t->each.all.items[i]) ? PER_VERTEX : 0;

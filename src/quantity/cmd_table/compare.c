@@ -5,6 +5,7 @@
  */
 #include "quantity/cmd_table/compare.h"
 #include "quantity/cmd_table/request.h"
+#include "quantity/cmd_table/slices.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -32,7 +33,7 @@ enum {
     DIGITS_Z = 6,
     DIGITS_FOV = 4
 };
-enum { NAME_WIDTH = 20, COLUMN_WIDTH = 7, BYTES_WIDTH = 3 };
+enum { NAME_WIDTH = 20, COLUMN_WIDTH = 7, BYTES_WIDTH = 3, CODES_WIDTH = 11, PERCENT_WIDTH = 7, DIGITS_PERCENT = 3 };
 
 /* Lengths are in the unit of the comparison; the set-up has its own, see camera_of(). */
 typedef struct compared {
@@ -50,6 +51,7 @@ typedef struct compared {
     dp_setup assumed;          /* at any slant, see each_setup.h */
     double slanted_to;         /* how far the middle limit goes there; NaN: not even at near, or nothing is known */
     uint64_t bytes;
+    double codes, percent; /* that a depth range keeps, and of all */
 } compared;
 
 typedef struct comparison {
@@ -62,6 +64,10 @@ typedef struct comparison {
     char titles[DEPTHS + LIMITS][NUMBER_SIZE];
     int name_width, limit_begin, limit_end; /* limits that are shown */
 } comparison;
+
+static bool is_sliced(const comparison *c) {
+    return c->o->camera.range_count > 1;
+}
 
 /* ---- What is measured -------------------------------------------------------------------------------------------- */
 
@@ -218,6 +224,7 @@ static const compared *reversed_of(const comparison *c, const compared *r) {
         const dp_spec *other = &c->rows[i].setup->spec;
         const dp_mapping_row *there = dp_mapping_get(other->mapping);
         if (c->rows[i].camera == r->camera && !here->reversed && there->reversed &&
+            memcmp(other->depth_range, r->setup->spec.depth_range, sizeof other->depth_range) == 0 &&
             here->ndc_signed == there->ndc_signed && here->curve == DP_CURVE_PERSPECTIVE &&
             strcmp(other->format.name, r->setup->spec.format.name) == 0)
             return &c->rows[i];
@@ -282,6 +289,7 @@ static void say_notes(page *p, void *item) {
     bool linear = false;
     output_char(p->out, '\n');
     say_farthest(p, c, limit.text);
+    slices_say(p, &c->o->camera, &c->each->all);
     say_slanted(p, c, limit.text);
     say_reversing(p, c, limit.text);
     for (size_t i = c->bounded; i < c->each->all.count; i++)
@@ -314,7 +322,8 @@ static void say_cameras(page *p, const comparison *c) {
     const table_request *o = c->o;
     char planes[1024] = "", more[64 + SETUP_RANGE_SIZE] = "", words[PRESET_WORDS_SIZE];
     const setup_fields f = setup_fields_asked(&c->each->all.items[0], &o->camera);
-    setup_range(&f, more);
+    if (o->camera.range_count < 2)
+        setup_range(&f, more);
     if (o->camera.rounding != DP_ROUND_NEAREST)
         append(more, sizeof more, ", rounding %s", dp_rounding_name(o->camera.rounding));
     if (p->unit != NULL)
@@ -354,7 +363,8 @@ static void say_head(page *p, void *item) {
         return;
     const dp_triangles *t = &c->o->camera.triangles;
     const char *const *words = above_depths[t->width == 0 ? 0 : t->slant_lo < t->slant_hi ? 1 : 2];
-    output_format(p->out, "%s%-*s%*s%*s%s\n", p->soft, c->name_width, width > 20 ? "" : words[2], width,
+    output_format(p->out, "%s%-*s%*s%*s%s\n", p->soft, c->name_width + (is_sliced(c) ? CODES_WIDTH + PERCENT_WIDTH : 0),
+                  width > 20 ? "" : words[2], width,
                   width > 27   ? words[0]
                   : width > 20 ? words[1]
                   : width > 0  ? "at z"
@@ -371,7 +381,8 @@ static void *next_row(void *of, size_t i) {
 static void fit(comparison *c) {
     for (size_t i = 0; i < c->each->all.count; i++)
         c->name_width = (int)fmax(c->name_width, (double)strlen(c->rows[i].name) + 1);
-    const int width = page_start(&c->each->out, 0).width - c->name_width;
+    const int width =
+        page_start(&c->each->out, 0).width - c->name_width - (is_sliced(c) ? CODES_WIDTH + PERCENT_WIDTH : 0);
     while (c->depth_count > 0 && width < COLUMN_WIDTH * (int)(c->depth_count + 1)) /* the farther ones stay */
         memmove(c->depths, c->depths + 1, --c->depth_count * sizeof c->depths[0]);
     const int room = width - COLUMN_WIDTH * (int)c->depth_count;
@@ -381,8 +392,12 @@ static void fit(comparison *c) {
 }
 
 static void write(comparison *c) {
-    column rows[1 + DEPTHS + LIMITS + 2] = {{TEXT_FIELD(compared, name, "", -c->name_width, 0)}};
+    column rows[1 + 2 + DEPTHS + LIMITS + 2] = {{TEXT_FIELD(compared, name, "", -c->name_width, 0)}};
     size_t n = 1;
+    if (is_sliced(c)) {
+        rows[n++] = (column){TEXT_FIELD(compared, codes, "codes", CODES_WIDTH, 0)};
+        rows[n++] = (column){TEXT_FIELD(compared, percent, "%", PERCENT_WIDTH, DIGITS_PERCENT), .brief = true};
+    }
     for (size_t i = 0; i < c->depth_count; i++) {
         snprintf(c->titles[i], NUMBER_SIZE, "%s", number_of(c->depths[i], DIGITS_Z).text);
         rows[n++] = (column){TEXT_FIELD(compared, separation[0], c->titles[i], COLUMN_WIDTH, DIGITS_BOUND),
@@ -430,14 +445,16 @@ static void compare_setup(comparison *c, size_t i) {
         .unbounded = slanted && dp_mapping_get(mapping)->curve != DP_CURVE_PERSPECTIVE,
         .assumed = c->each->assumed,
         .cost = cost_of(&c->each->setup->spec.format, mapping)};
-    char label[SETUP_LABEL_SIZE];
+    char label[SETUP_LABEL_SIZE], slice[SETUP_RANGE_SIZE];
     const raster_row *raster = c->each->here->raster;
     if (raster != NULL)
         snprintf(r->raster, sizeof r->raster, "%s", raster->name);
     else
         snprintf(r->raster, sizeof r->raster, "%d subpixel bits", c->each->here->triangles.subpixel);
-    snprintf(r->name, sizeof r->name, "%s%s%s", engine != NULL ? engine : "", engine != NULL ? " " : "",
-             setup_label(r->setup, false, label));
+    snprintf(r->name, sizeof r->name, "%s%s%s%s", engine != NULL ? engine : "", engine != NULL ? " " : "",
+             setup_label(r->setup, false, label), setup_slice(&o->camera, r->setup, slice));
+    r->codes = slice_codes(r->setup);
+    r->percent = 100.0 * slice_share(r->setup);
     r->bytes = (uint64_t)r->cost.bytes;
 }
 

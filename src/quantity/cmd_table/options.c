@@ -45,7 +45,9 @@ static const option_use of_depths[] = {
 static const option_use of_stored[] = {
     OWN("format", ALSO(CAMERA_OF_RG)),
     OWN("model", DEFAULT("exact"), WITHOUT("for several set-ups the fullest that each supports")),
-    TAKE("depth"), TAKE("code"), TAKE("log-c"), TAKE("depth-range"), TAKE("link"), GROUP_OF(camera_slanted),
+    TAKE("depth"), TAKE("code"), TAKE("log-c"), TAKE("link"),
+    OWN("depth-range", .argument = "LO:HI[,LO:HI...]", ALSO("several are compared"), .parse = parse_depth_ranges),
+    GROUP_OF(camera_slanted),
     GROUP_OF(camera_projected), END};
 static const option_use asked_depths[] = {
     OWN("at", WITHOUT("nine, log-spaced from near to far, or to 1e6 times near; linear if near is 0 or negative; round "
