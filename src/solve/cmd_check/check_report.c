@@ -72,9 +72,9 @@ static bool is_facing(const check_verdict *v) {
 }
 
 static number_text surfaces(const check_verdict *v) {
-    return v->sloped             ? (number_text){"at the slope"}
-           : check_is_slanted(v) ? slant_words(&v->setup.spec.triangles)
-                                 : (number_text){"facing"};
+    if (v->sloped)
+        return (number_text){"at the slope"};
+    return check_is_slanted(v) ? slant_words(&v->setup.spec.triangles) : (number_text){"facing"};
 }
 
 static biased biased_of(const check_verdict *v) {
