@@ -17,6 +17,7 @@ more() {
     for normals in stereo-8 oct-8 oct-888 xyz-8; do echo "$normals --what normal"; done
     for mapping in log cesium three-webgpu linear; do printf -- "-m $mapping%s\n" '' ' --what encode --uniforms'; done
     printf -- '--ortho -m %s\n' d3d 'reversed --uniforms'
+    printf -- '--depth-range %s\n' '0.1:1 -m d3d' '0:0.1 unity -m gl --uniforms' '0.1:1 -m reversed -f inf' '1:0.2 -m gl'
 }
 
 # Every function of a language for every camera, and the matrix: in $scratch/all. What a language lacks is refused.
@@ -301,6 +302,21 @@ check "three-webgpu by hand" empty curve 0.5 6 -m three-webgpu -n 3 -f 12
 check "linear by hand" empty curve 0.25 2 -m linear -f 8
 check "orthographic by hand" empty curve 0.25 1.75 --ortho -m d3d -n 1 -f 4
 check "that of reversed depth by hand" empty curve 0.25 2 --ortho -m reversed -n -1 -f 3
+
+# A range that binary32 has: of d3d a quarter of the way from 1/2 to 1 is as 1/4 from 0 to 1.
+undone() { # undone METHOD D OPTIONS: 1.5 of near 1 and far 3
+    code "$1" --language c --what linearize -n 1 -f 3 $3 >"$scratch/code" && {
+        printf '#include <math.h>\n#include <stdio.h>\n'
+        cat "$scratch/code"
+        echo "int main(void) { printf(\"%.5f\", (double)eye_depth($2)); return 0; }"
+    } >"$scratch/c.c" && $CC -o "$scratch/c" "$scratch/c.c" -lm && [ "$("$scratch/c")" = 1.50000 ] || "$scratch/c"
+}
+for method in unity complement-unity; do
+    check "a range by hand, $method" empty undone $method 0.75f '-m d3d --depth-range 0.5:1'
+    check "one that falls, $method" empty undone $method 0.25f '-m gl --depth-range 0.5:0'
+    check "a reversed one, $method" empty undone $method 0.375f '-m reversed --depth-range 0.25:0.5'
+    check "both ways, $method" empty undone $method 0.375f '-m gl-reversed --depth-range 0.5:0.25'
+done
 
 cleared() { code "$@" | grep -qE "^(//|#) Clear depth to $clear; nearer is $compare\.$"; }
 clear=0 compare=GREATER

@@ -13,7 +13,7 @@
 /* ---- What a language has ----------------------------------------------------------------------------------------- */
 
 static bool calls(const method_row *row, const dp_setup *setup, const char *name) {
-    return strstr(row->bound->steps[setup->reversed != 0], name) != NULL;
+    return strstr(row->bound->steps[bound_variant(setup)], name) != NULL;
 }
 
 const char *code_lacks(const code_language *l, const method_row *row, const dp_setup *setup) {
@@ -21,6 +21,8 @@ const char *code_lacks(const code_language *l, const method_row *row, const dp_s
         return "is no formula of floating-point operations";
     if (row->bound->steps[0] == NULL)
         return "is no short formula";
+    if (row->bound->steps[bound_variant(setup)] == NULL)
+        return "knows the depth range 0 to 1 alone";
     if (calls(row, setup, "whole(") && l->whole == NULL)
         return "gives a whole number";
     if (isinf(setup->spec.zfar) && (row->domain & METHOD_INFINITE) == 0)
@@ -68,6 +70,8 @@ const method_row *code_best(const code_language *l, const method_family_row *fam
 
 /* ---- Comments ---------------------------------------------------------------------------------------------------- */
 
+enum { DIGITS_END = 9 }; /* of a binary32 number */
+
 static void say_encode(output *out, const code_language *l, const method_row *row, const dp_setup *setup) {
     const double bound = code_bound(l, row, setup);
     code_say_rules(out, l, false);
@@ -83,11 +87,20 @@ static void say_bound(output *out, const code_language *l, const method_row *row
     const double n = setup->spec.znear, least = l->how.flushes ? 0x1p-125 : 0x1p-149,
                  most = l->how.flushes ? 0x1p125 : 0x1p127;
     const bool infinite = isinf(setup->spec.zfar), same = l->how.rounding == 1;
-    char where[NUMBER_SIZE + 32] = "for any d from 0 to 1";
-    if (infinite && setup->reversed)
-        snprintf(where, sizeof where, "up to a depth of %s", number_down(fmin(n / least, most), 3).text);
+    const steps_given given = bound_given(setup);
+    char where[2 * NUMBER_SIZE + 32];
+    snprintf(where, sizeof where, "for any d from %s to %s", number_of(given.lo, DIGITS_END).text,
+             number_of(given.hi, DIGITS_END).text);
+    if (infinite && setup->reversed && given.lo == 0.0)
+        snprintf(where, sizeof where, "up to a depth of %s", number_down(fmin(n * given.hi / least, most), 3).text);
+    else if (infinite && setup->reversed)
+        snprintf(where, sizeof where, "for any d above %s, to %s", number_of(given.lo, DIGITS_END).text,
+                 number_of(given.hi, DIGITS_END).text);
+    else if (infinite && given.lo > 0.0)
+        snprintf(where, sizeof where, "for any d from %s on, below %s", number_of(given.lo, DIGITS_END).text,
+                 number_of(given.hi, DIGITS_END).text);
     else if (infinite)
-        snprintf(where, sizeof where, "for any d below 1");
+        snprintf(where, sizeof where, "for any d below %s", number_of(given.hi, DIGITS_END).text);
     code_say_rules(out, l, false);
     if (isinf(bound))
         code_say(out, l, "No bound: where its divisor comes to 0 no digit is left.");
@@ -100,17 +113,19 @@ static void say_bound(output *out, const code_language *l, const method_row *row
 
 code_said code_function(output *out, const code_language *l, const method_row *row, const dp_setup *setup,
                         bool uniforms) {
-    const bool reversed = setup->reversed != 0;
+    const int variant = bound_variant(setup);
     const bool whole = row->family == METHOD_ENCODE;
     code_body f = {.l = l,
                    .name = whole ? "depth_code" : "eye_depth",
                    .inputs = {"d"},
-                   .given = {.n = whole ? setup->spec.format.code_max : setup->spec.znear, .f = setup->spec.zfar},
+                   .given = bound_given(setup),
                    .type = whole ? CODE_COUNT : CODE_REAL,
                    .wide = row->bound->wide,
                    .uniforms = uniforms};
-    steps_read(row->bound->constants[reversed], &f.constants);
-    steps_read(row->bound->steps[reversed], &f.steps);
+    if (whole)
+        f.given.n = setup->spec.format.code_max;
+    steps_read(row->bound->constants[variant], &f.constants);
+    steps_read(row->bound->steps[variant], &f.steps);
     code_import(out, l);
     if (row->family == METHOD_ENCODE)
         code_say(out, l, "Code of a window depth: %s", setup->spec.format.name);

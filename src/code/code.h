@@ -22,7 +22,8 @@ typedef struct code_said {
     size_t count;
 } code_said;
 
-/** Why a language has no function for a row at a camera, "needs a finite far plane"; or null. */
+/** Why a language has no function for a row at a camera, "needs a finite far plane"; or null. Depth ranges are of
+ * perspective cameras, and not of scripts. */
 const char *code_lacks(const code_language *l, const method_row *row, const dp_setup *setup);
 
 /** The ways from window depth to code that round so: of nearest the family of methods. */

@@ -46,7 +46,7 @@ static int kind_of(const dp_setup *setup) {
 /* Over all window depths at once: what is absolute is largest where numbers are. */
 static double linear_bound(const curve_row *row, const dp_setup *setup, const bound_arithmetic *how) {
     const bound_steps own = {.constants = {row->back[0], row->back[0]}, .steps = {row->back[1], row->back[1]}};
-    bound_piece p = {.reversed = false, .d = term_any(0, 1)};
+    bound_piece p = {.d = term_any(0, 1)};
     bound_walk w;
     dp_setup standard = *setup;
     standard.reversed = 0;
@@ -102,12 +102,13 @@ code_said code_curve(output *out, const code_language *l, const dp_setup *setup,
                               : kind < LOG            ? "a scene unit"
                               : kind == LOG_OVER_NEAR ? "the depth"
                                                       : "the depth + 1/C"};
-    code_body f = {.l = l,
-                   .name = claim.function,
-                   .inputs = {there ? "z" : "d"},
-                   .given = {setup->spec.znear, setup->spec.zfar, setup->log_c, span_of(setup)},
-                   .span = row->span,
-                   .uniforms = uniforms};
+    code_body f = {
+        .l = l,
+        .name = claim.function,
+        .inputs = {there ? "z" : "d"},
+        .given = {.n = setup->spec.znear, .f = setup->spec.zfar, .scale = setup->log_c, .span = span_of(setup)},
+        .span = row->span,
+        .uniforms = uniforms};
     steps_read((there ? row->there : row->back)[0], &f.constants);
     steps_read((there ? row->there : row->back)[1], &f.steps);
     code_import(out, l);

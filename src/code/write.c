@@ -51,6 +51,8 @@ void code_literal(char *out, const code_language *l, double value, bool wide) {
 static void put_name(const code_writer *w, const char *name, bool inner, char *out) {
     const char *const words[][3] = {{"n", "near", "near"},
                                     {"f", "far", "far"},
+                                    {"lo", "LO", "LO"},
+                                    {"hi", "HI", "HI"},
                                     {"scale", "C of the mapping", "C"},
                                     {"span", w->span, w->span},
                                     {"across", "1/near - 1/far", "(1/near - 1/far)"},
@@ -176,9 +178,13 @@ void code_say_rules(output *out, const code_language *l, bool powers) {
 void code_say_camera(output *out, const code_language *l, const dp_setup *setup, const char *what) {
     const dp_spec *s = &setup->spec;
     const bool scaled = setup->curve == DP_CURVE_LOG && !dp_mapping_get(s->mapping)->log_over_near;
-    code_say(out, l, "%s: %s%s, near %s, far %s%s%s", what, dp_mapping_get(s->mapping)->name,
+    char ends[2 * NUMBER_SIZE + 16] = "";
+    if (setup->ranged)
+        snprintf(ends, sizeof ends, ", depth range %s:%s", number_full(s->depth_range[0]).text,
+                 number_full(s->depth_range[1]).text);
+    code_say(out, l, "%s: %s%s, near %s, far %s%s%s%s", what, dp_mapping_get(s->mapping)->name,
              s->ortho ? ", orthographic" : "", number_full(s->znear).text, number_full(s->zfar).text,
-             scaled ? ", C " : "", scaled ? number_full(s->log_c).text : "");
+             scaled ? ", C " : "", scaled ? number_full(s->log_c).text : "", ends);
 }
 
 void code_say_depth(output *out, const code_language *l, const dp_setup *setup) {

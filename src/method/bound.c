@@ -19,19 +19,20 @@ typedef struct search {
     bound_walk walk;
     bool reversed;
     double slope, base; /* 1/z = slope near + base */
+    double far;         /* the window depth of the far plane */
     float least, most;  /* window depths */
     piece heap[PIECES]; /* the worst first */
     int count;
 } search;
 
 static double worst_of(search *s, float a, float b) {
-    bound_piece p = {.reversed = s->reversed, .d = term_any(a, b)};
-    const range rest = range_outward(1 - (double)b, 1 - (double)a);
+    bound_piece p = {.d = term_any(a, b)};
+    const double from = fabs(s->far - (double)(s->reversed ? a : b)), to = fabs(s->far - (double)(s->reversed ? b : a));
     if (s->walk.how->flushes && a < FLT_MIN) {
         p.d.off = (range){(double)-FLT_MIN, 0};
         p.d.share = (range){-1, 0};
     }
-    p.near = s->reversed ? p.d.exact : rest;
+    p.near = s->far == 0 ? p.d.exact : range_outward(from, to);
     p.inverse = range_outward((s->slope * p.near.lo + s->base) * (1 - DP_ROUNDINGS_14),
                               (s->slope * p.near.hi + s->base) * (1 + DP_ROUNDINGS_14));
     if (!(p.inverse.lo > 0))
@@ -80,18 +81,38 @@ static void first_pieces(search *s) {
         push_piece(s, 1, 1);
 }
 
+/* In another range each half of the way to the far plane's depth, to where depths are those at the plane, or to the
+ * last number. */
+static void ranged_pieces(search *s) {
+    const double turn = s->base / s->slope * 0x1p-4, whole = (double)s->most - (double)s->least;
+    const float end = s->reversed ? s->least : s->most;
+    float at = s->reversed ? s->most : s->least;
+    for (double rest = whole / 2; rest > turn && at != end; rest /= 2) {
+        const float next = s->reversed ? fmaxf((float)(s->far + rest), end) : fminf((float)(s->far - rest), end);
+        push_piece(s, fminf(at, next), fmaxf(at, next));
+        at = next;
+    }
+    if (at != end)
+        push_piece(s, fminf(at, end), fmaxf(at, end));
+}
+
 double bound_over(const bound_steps *row, const dp_setup *setup, const bound_arithmetic *how) {
     const double n = setup->spec.znear, f = setup->spec.zfar;
     const bool infinite = isinf(f), reversed = setup->reversed != 0;
-    search s = {.reversed = reversed, .least = 0, .most = 1};
-    s.slope = infinite ? 1 / n : (f - n) / n / f;
+    const steps_given given = bound_given(setup);
+    const double span = given.hi - given.lo, unit = n * span;
+    search s = {.reversed = reversed, .least = (float)given.lo, .most = (float)given.hi};
+    s.slope = (infinite ? 1 / n : (f - n) / n / f) / span;
     s.base = 1 / f;
-    if (infinite && reversed)
-        s.least = dp_float_up(how->flushes ? fmax(n, 1) * 0x1p-125 : fmax(n * 0x1p-127, 0x1p-149));
+    s.far = reversed ? given.lo : given.hi;
+    if (infinite && reversed && given.lo == 0.0)
+        s.least = dp_float_up(how->flushes ? fmax(unit, 1) * 0x1p-125 : fmax(unit * 0x1p-127, 0x1p-149));
+    else if (infinite && reversed)
+        s.least = nextafterf(s.least, 1);
     else if (infinite)
-        s.most = 1 - 0x1p-24f;
+        s.most = nextafterf(s.most, 0);
     bound_begin(row, setup, how, &s.walk);
-    first_pieces(&s);
+    (setup->ranged ? ranged_pieces : first_pieces)(&s);
     for (int i = 0; i < HALVINGS && s.heap[0].a < s.heap[0].b; i++) {
         const piece worst = pop_worst(&s);
         const float middle = dp_float_down(((double)worst.a + (double)worst.b) / 2);

@@ -18,18 +18,21 @@
 
 /** Window depths next to each other, and what is exact there. */
 typedef struct bound_piece {
-    bool reversed;
     term d;
-    range near;    /**< the share of the way from the far plane: 1 - d, or d itself where near is stored as 1 */
+    range near;    /**< from the far plane's window depth on: 1 - d, or d itself where near is stored as 1 */
     range inverse; /**< 1/z */
     range eye;     /**< z */
 } bound_piece;
 
-/** A method as its operations: texts of steps.h for standard and for reversed depth. */
+/** Standard and reversed depth from 0 to 1; the same in another depth range. */
+enum { BOUND_VARIANTS = 4 };
+int bound_variant(const dp_setup *setup);
+
+/** A method as its operations: texts of steps.h for each variant. */
 typedef struct bound_steps {
-    const char *constants[2], *steps[2]; /**< null where only `off` is known */
-    bool wide;                           /**< in binary64, the result rounded once */
-    double off;                          /**< the share before the last rounding */
+    const char *constants[BOUND_VARIANTS], *steps[BOUND_VARIANTS]; /**< null where only `off` is known, or nothing is */
+    bool wide;                                                     /**< in binary64, the result rounded once */
+    double off;                                                    /**< the share before the last rounding */
 } bound_steps;
 
 /** The errors that a language allows its operations. */
@@ -51,17 +54,20 @@ typedef struct bound_known {
 /** A row at a camera, at work. */
 typedef struct bound_walk {
     const bound_steps *row;
+    int variant;
     const bound_arithmetic *how;
     steps constants, steps;
     bound_known known[2 * STEPS_MAX + 1]; /**< the constants, d and the steps */
 } bound_walk;
+/** What constants are formed of; the ends of a depth range are those that binary32 has. */
+steps_given bound_given(const dp_setup *setup);
 void bound_begin(const bound_steps *row, const dp_setup *setup, const bound_arithmetic *how, bound_walk *w);
 term bound_run(bound_walk *w, const bound_piece *p); /**< the eye depth throughout the piece */
 
 /**
- * For a perspective set-up with a standard or reversed mapping onto [0, 1]: no binary32 window depth, whose eye depth
- * is at most 2^127, has a greater relative error. INFINITY where the divisor may come to 0. Where numbers may be
- * flushed and far is infinite the depth is at most 2^125, too, and that of window depth 2^-125.
+ * For a perspective set-up with a standard or reversed mapping onto its depth range: no binary32 window depth of that,
+ * whose eye depth is at most 2^127, has a greater relative error. INFINITY where the divisor may come to 0. Where
+ * numbers may be flushed and far is infinite the depth is at most 2^125, too, and that of window depth 2^-125.
  */
 double bound_over(const bound_steps *row, const dp_setup *setup, const bound_arithmetic *how);
 

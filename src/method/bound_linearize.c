@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The methods of linearize as their operations: see linearize.c, where they run. Of d, n and f; in exact arithmetic z
- * is the eye depth, i its reciprocal, and s the share of the way from the far plane.
+ * is the eye depth, i its reciprocal, and s how far the window depth is from that of the far plane.
  */
 #include <float.h>
 #include <math.h>
@@ -14,6 +14,10 @@
 /* ---- Rows: standard depth, then reversed ------------------------------------------------------------------------- */
 
 #define SHARE        "q = 1 - d : s; "
+#define ABOVE        "q = d - L : s; "
+#define BELOW        "q = H - d : s; "
+#define UNITY        BY("d", "i") "z = 1/x : z"
+#define COMPLEMENTED BY("q", "i") "z = 1/x : z"
 #define BY(q, exact) "x = B + S*" q " : " exact "; "
 
 #define COMPLEMENT "P = n*f; B = n; S = f - n"
@@ -24,14 +28,16 @@
 
 /* clang-format off */
 const bound_steps bound_unity = {
-    .constants = {"B = 1/n; S = -across", "B = 1/f; S = across"},
-    .steps = {BY("d", "i") "z = 1/x : z", BY("d", "i") "z = 1/x : z"}};
+    .constants = {"B = 1/n; S = -across", "B = 1/f; S = across", "B = 1/n + lo*across/(hi - lo); S = -across/(hi - lo)",
+     "B = 1/f - lo*across/(hi - lo); S = across/(hi - lo)"},
+    .steps = {UNITY, UNITY, UNITY, UNITY}};
 const bound_steps bound_magic = {
     .constants = {"B = 1/n; S = -across", "B = 1/f; S = across"},
     .steps = {MAGIC, MAGIC}};
 const bound_steps bound_complement_unity = {
-    .constants = {"B = 1/f; S = across", "B = 1/f; S = across"},
-    .steps = {SHARE BY("q", "i") "z = 1/x : z", BY("d", "i") "z = 1/x : z"}};
+    .constants = {"B = 1/f; S = across", "B = 1/f; S = across", "H = hi; B = 1/f; S = across/(hi - lo)",
+     "L = lo; B = 1/f; S = across/(hi - lo)"},
+    .steps = {SHARE COMPLEMENTED, UNITY, BELOW COMPLEMENTED, ABOVE COMPLEMENTED}};
 const bound_steps bound_linear_01 = {
     .constants = {"F = f; B = f/n; S = -excess", "F = f; B = 1; S = excess"},
     .steps = {BY("d", "F*i") "t = 1/x : z/F; z = F*t : z", BY("d", "F*i") "t = 1/x : z/F; z = F*t : z"}};
@@ -72,7 +78,7 @@ static double left_of_sum(double a, double b) {
 }
 
 /* The term of a constant; those of binary64 are known as products and sums of the planes. */
-static term constant_of(const steps *s, int index, const steps_given *given, bool wide) {
+static term constant_of(const steps *s, int index, const steps_given *given, bool wide, double share) {
     const steps_node *of = &s->node[index];
     const double value = steps_value(s, index, given);
     const double a = of->of[0] < 0 ? 0 : steps_value(s, of->of[0], given);
@@ -83,22 +89,33 @@ static term constant_of(const steps *s, int index, const steps_given *given, boo
         return term_apart(value, fma(a, b, -value));
     if (wide && of->kind == STEPS_DIFFERENCE)
         return term_apart(value, left_of_sum(a, -b));
-    return term_constant(value, wide ? TERM_DOUBLE : TERM_SINGLE);
+    return term_constant(value, share, wide ? TERM_DOUBLE : TERM_SINGLE);
+}
+
+int bound_variant(const dp_setup *setup) {
+    return (setup->reversed != 0) + 2 * (setup->ranged != 0);
+}
+
+steps_given bound_given(const dp_setup *setup) {
+    const dp_spec *s = &setup->spec;
+    const float end = (float)s->depth_range[0], other = (float)s->depth_range[1];
+    return (steps_given){.n = s->znear, .f = s->zfar, .lo = (double)fminf(end, other), .hi = (double)fmaxf(end, other)};
 }
 
 void bound_begin(const bound_steps *row, const dp_setup *setup, const bound_arithmetic *how, bound_walk *w) {
-    const bool reversed = setup->reversed != 0;
-    const steps_given given = {.n = setup->spec.znear, .f = setup->spec.zfar};
+    const steps_given given = bound_given(setup);
+    const double share = setup->ranged ? DP_ROUNDINGS_14 : DP_ROUNDINGS_2; /* of what forms a constant */
     const steps *k = &w->constants;
     w->row = row;
+    w->variant = bound_variant(setup);
     w->how = how;
     w->constants.count = 0;
-    if (row->steps[reversed] == NULL)
+    if (row->steps[w->variant] == NULL)
         return;
-    steps_read(row->constants[reversed], &w->constants);
-    steps_read(row->steps[reversed], &w->steps);
+    steps_read(row->constants[w->variant], &w->constants);
+    steps_read(row->steps[w->variant], &w->steps);
     for (int i = 0; i < k->count; i++)
-        w->known[i] = (bound_known){k->step[i].name, constant_of(k, k->step[i].is, &given, row->wide)};
+        w->known[i] = (bound_known){k->step[i].name, constant_of(k, k->step[i].is, &given, row->wide, share)};
 }
 
 /* ---- In exact arithmetic ----------------------------------------------------------------------------------------- */
@@ -210,7 +227,7 @@ static term computed(const bound_walk *w, int index, const range *exact) {
 
 term bound_run(bound_walk *w, const bound_piece *p) {
     int count = w->constants.count;
-    if (w->row->steps[p->reversed] == NULL) {
+    if (w->row->steps[w->variant] == NULL) {
         const double off = w->how->rounding == 1 && !w->how->contracts ? w->row->off : (double)INFINITY;
         const term pairs = term_within(p->eye, (range){-off, off});
         return term_rounded(&pairs, TERM_SINGLE, 1, false);

@@ -105,8 +105,8 @@ static double named(const char *name, const steps_given *g) {
     const struct {
         const char *name;
         double value;
-    } names[] = {{"n", g->n},    {"most", g->n},      {"pixels", g->n},  {"f", g->f},
-                 {"half", g->f}, {"scale", g->scale}, {"span", g->span}, {"excess", excess}};
+    } names[] = {{"n", g->n},         {"most", g->n},    {"pixels", g->n},   {"f", g->f},   {"half", g->f},
+                 {"scale", g->scale}, {"span", g->span}, {"excess", excess}, {"lo", g->lo}, {"hi", g->hi}};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         if (strcmp(name, names[i].name) == 0)
             return names[i].value;

@@ -6,7 +6,7 @@
  *     steps      name = expression [: what it is in exact arithmetic]; ...     the last is the result
  *     constants  name = expression in n, f, across (1/n - 1/f) and excess (f/n - 1); ...;
  *                of codes in `most`, of places in `pixels` and `half`, which stand in the place of near and far;
- *                of a logarithmic mapping in `scale` and `span`, too
+ *                of a logarithmic mapping in `scale` and `span`, too, of a depth range in `lo` and `hi`
  *
  * Expressions have + - * / and parentheses, numbers, names, and calls: fma(a, b, c); estimate(x) and magic(x), which
  * are about 1/x; newton(x, y), which is y (2 - x y); whole(x), an integer, and even(x), the nearest one as a number;
@@ -49,10 +49,10 @@ typedef struct steps {
 /** The text of a row, which is right. */
 void steps_read(const char *text, steps *out);
 
-/** The numbers that form constants: binary64 planes or what stands in their place, and of a logarithmic mapping C and
- * log2(C far + 1). */
+/** The numbers that form constants: binary64 planes or what stands in their place; of a logarithmic mapping C and
+ * log2(C far + 1); the lower and the upper end of the depth range. */
 typedef struct steps_given {
-    double n, f, scale, span;
+    double n, f, scale, span, lo, hi;
 } steps_given;
 
 /** A constant in double. */

@@ -88,8 +88,8 @@ static term stands_for(double computed, range exact, range off) {
     return t;
 }
 
-term term_constant(double value, int bits) {
-    const double computed = bits == TERM_SINGLE ? (double)(float)value : value, formed = DP_ROUNDINGS_2 * fabs(value);
+term term_constant(double value, double share, int bits) {
+    const double computed = bits == TERM_SINGLE ? (double)(float)value : value, formed = share * fabs(value);
     return stands_for(computed, (range){value - formed, value + formed},
                       (range){computed - value - formed, computed - value + formed});
 }

@@ -26,8 +26,8 @@ typedef struct term {
 /** Significant bits of the formats that are computed in. */
 enum { TERM_SINGLE = 24, TERM_DOUBLE = 53 };
 
-/** A constant that is formed in double, of 2 roundings at most, and then rounded to `bits`. */
-term term_constant(double value, int bits);
+/** A constant that is formed in double, off by that share of itself at most, and then rounded to `bits`. */
+term term_constant(double value, double share, int bits);
 /** A number that is there exactly; and one in double that stands for value + rest. */
 term term_exact(double value);
 term term_apart(double value, double rest);

@@ -110,6 +110,11 @@ int parse_depth_ranges(asked_line *line, const option_row *row, const char *valu
     return absent_option(line, row, value, group);
 }
 
+const char *setup_range_option(const dp_spec *spec, char out[SETUP_RANGE_SIZE]) {
+    (void)spec;
+    return setup_range(NULL, out);
+}
+
 const char *setup_slice(const camera_asked *c, const dp_setup *setup, char out[SETUP_RANGE_SIZE]) {
     (void)c;
     (void)setup;

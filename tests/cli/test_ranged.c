@@ -640,6 +640,20 @@ TEST(refusals) {
     check_says(0, "", "table -m log --depth-range 0:1 --viewport 640x480");
 }
 
+TEST(code) {
+    check_says(2, "it knows the depth range 0 to 1 alone; there are unity, complement-unity",
+               "code textbook -m d3d --depth-range 0:.5");
+    check_says(2, "must be glsl, hlsl, wgsl, msl, c or numpy with --depth-range, got gappa",
+               "code -m d3d --language gappa --depth-range 0:.5");
+    check_says(2, "conflicts with --ortho", "code -m d3d --ortho --depth-range 0:.5");
+    check_says(2, "has no effect with --what projection", "code --what projection --depth-range 0:.5");
+    check_says(2, "has no effect with --what encode", "code --what encode --depth-range 0:.5");
+    check_says(0, "for any d from 0 to 0.5;", "code -m d3d --depth-range 0:.5");
+    check_says(0, "for any d from 0.5 on,", "code -m d3d -f inf --depth-range .5:1");
+    check_says(0, "for any d above 0.5, to 1;", "code -m reversed -f inf --depth-range .5:1");
+    check_says(0, "up to a depth of 2.12e+36;", "code -m reversed -f inf --depth-range 0:.5");
+}
+
 TEST(refused_files) {
     static const struct {
         const char *camera, *need, *said;

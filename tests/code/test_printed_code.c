@@ -6,6 +6,7 @@
  */
 #include "allowed.h"
 #include "code/code.h"
+#include "oracle.h"
 
 enum { VARIANTS = 8, EITHER = 6, SPECIAL = 64 };
 
@@ -95,6 +96,92 @@ TEST(every_eye_depth_keeps_its_bound) {
     assert_true(t.cases > 100000);
     tally_end(&t);
 }
+
+/* ---- Depth ranges ------------------------------------------------------------------------------------------------ */
+
+/* The eye depth of a window depth; the ends are those that binary32 has. */
+static long double eye_in_range(const dp_setup *s, const float ends[2], float d) {
+    const long double n = s->spec.znear, f = s->spec.zfar,
+                      q = (s->reversed ? (long double)d - ends[0] : (long double)ends[1] - d) /
+                          ((long double)ends[1] - ends[0]);
+    return isinf(s->spec.zfar) ? n / q : n * f / (n + (f - n) * q);
+}
+
+/* A window depth in the range: an end, the numbers next to it, others close to it, or any. */
+static float depth_in_range(rng *r, const float ends[2]) {
+    const int kind = (int)rng_below(r, 7);
+    const float width = ends[1] - ends[0], part = (float)rng_log(r, 0x1p-30, 1) * width;
+    const float d = kind == 0   ? ends[0]
+                    : kind == 1 ? ends[1]
+                    : kind == 2 ? nextafterf(ends[0], 1)
+                    : kind == 3 ? nextafterf(ends[1], 0)
+                    : kind == 4 ? ends[0] + part
+                    : kind == 5 ? ends[1] - part
+                                : ends[0] + width * (float)rng_unit(r);
+    return fminf(fmaxf(d, ends[0]), ends[1]);
+}
+
+/* @return the greatest share of its bound that it is off by */
+static double check_range(tally *t, rng *r, size_t p, const method_row *row, const dp_setup *s) {
+    const double *asked = s->spec.depth_range;
+    const float ends[] = {(float)fmin(asked[0], asked[1]), (float)fmax(asked[0], asked[1])};
+    const code_said said = code_function(&printed, begin(p), row, s, false);
+    const double bound = said.claims[0].bound;
+    double most = 0;
+    for (int i = 0; i < 40 * VARIANTS && isfinite(bound); i++) {
+        const device v = variant(r, p, i % VARIANTS);
+        const float at = depth_in_range(r, ends);
+        const long double is = eye_in_range(s, ends, at);
+        double z[4];
+        if (!isfinite(is) || is > 0x1p125L || (ends[0] == 0 && at < 0x1p-125f))
+            continue;
+        printed_compute(text(), "eye_depth", p, &v, &at, z);
+        const double off = (double)(fabsl(z[0] - is) / is);
+        most = fmax(most, off / bound);
+        TALLY(t, off <= bound, "%s in %s, %s, near %g, far %g, range %.9g:%.9g, d %a: off by %g of %g", row->name,
+              promises[p].name, dp_mapping_get(s->spec.mapping)->name, s->spec.znear, s->spec.zfar, asked[0], asked[1],
+              (double)at, off, bound);
+    }
+    return most;
+}
+
+TEST(every_eye_depth_of_a_range_keeps_its_bound) {
+    rng r = rng_make("printed ranges");
+    tally t = {.name = "eye depths of depth ranges"}, loose = {.name = "slack of their bounds"};
+    size_t functions = 0;
+    for (uint64_t k = test_cases(60, 300, 2000); k > 0; k--) {
+        const double *pair = planes[k % PLANES];
+        dp_spec spec = dp_spec_default();
+        dp_setup s;
+        double best = 0, least = INFINITY;
+        spec.mapping = (dp_mapping)rng_below(&r, DP_MAPPING_GL_REVERSED + 1);
+        spec.format = oracle_float(8, 23, 127);
+        spec.znear = k % 3 == 0 ? rng_log(&r, 1e-3, 1e3) : pair[0];
+        spec.zfar = k % 3 == 0 ? spec.znear * rng_log(&r, 1.1, 1e7) : pair[1];
+        rng_range(&r, spec.depth_range);
+        if (dp_setup_init(&s, &spec) != DP_OK || !s.ranged)
+            continue;
+        for (size_t i = 0; i < *linearize_family.method_count; i++)
+            for (size_t p = 0; p < PROMISES; p++) {
+                const method_row *row = &linearize_family.methods[i];
+                if (code_lacks(begin(p), row, &s) != NULL)
+                    continue;
+                functions++;
+                best = fmax(best, check_range(&t, &r, p, row, &s));
+                least = fmin(least, code_bound(begin(p), row, &s));
+            }
+        /* Some language and some depth come near the bound of the function. */
+        TALLY(&loose, best >= 0.3, "near %g, far %g, range %.9g:%.9g: off by %g of the bound at most", spec.znear,
+              spec.zfar, spec.depth_range[0], spec.depth_range[1], best);
+        TALLY(&loose, least <= 2.5e-6, "near %g, far %g, range %.9g:%.9g: no function is better than %g", spec.znear,
+              spec.zfar, spec.depth_range[0], spec.depth_range[1], least);
+    }
+    assert_true(functions > 200);
+    tally_end(&t);
+    tally_end(&loose);
+}
+
+/* ---- Codes ------------------------------------------------------------------------------------------------------- */
 
 TEST(every_code_keeps_its_bound) {
     rng r = rng_make("printed codes");

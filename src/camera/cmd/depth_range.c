@@ -65,6 +65,14 @@ const char *setup_range(const setup_fields *f, char out[SETUP_RANGE_SIZE]) {
     return out;
 }
 
+const char *setup_range_option(const dp_spec *spec, char out[SETUP_RANGE_SIZE]) {
+    const setup_depths *ends = setup_ends(spec);
+    *out = '\0';
+    if (ends != NULL)
+        snprintf(out, SETUP_RANGE_SIZE, " --depth-range %s:%s", number_full(ends->lo).text, number_full(ends->hi).text);
+    return out;
+}
+
 const char *setup_slice(const camera_asked *c, const dp_setup *setup, char out[SETUP_RANGE_SIZE]) {
     const double *ends = setup->spec.depth_range;
     *out = '\0';

@@ -265,9 +265,10 @@ void setup_say_planes(page *p, const setup_fields *fields) {
 
 void setup_say_code(page *p, const dp_spec *spec) {
     const dp_mapping_row *mapping = dp_mapping_get(spec->mapping);
-    if (mapping->curve == DP_CURVE_PERSPECTIVE && !spec->ortho && setup_ends(spec) == NULL)
-        page_note(p, "code", "depthprec code -n %s -f %s -m %s", number_full(spec->znear).text,
-                  number_full(spec->zfar).text, mapping->name);
+    char range[SETUP_RANGE_SIZE];
+    if (mapping->curve == DP_CURVE_PERSPECTIVE && !spec->ortho)
+        page_note(p, "code", "depthprec code%s -n %s -f %s -m %s", setup_range_option(spec, range),
+                  number_full(spec->znear).text, number_full(spec->zfar).text, mapping->name);
 }
 
 clipping clipping_of(const dp_setup *setup) {

@@ -96,6 +96,9 @@ number_text setup_far(const setup_fields *f);
 /** ", depth range 0:0.1", or "" where it is 0 to 1. @return out */
 const char *setup_range(const setup_fields *f, char out[SETUP_RANGE_SIZE]);
 
+/** " --depth-range 0:0.1", or "" where it is 0 to 1. @return out */
+const char *setup_range_option(const dp_spec *spec, char out[SETUP_RANGE_SIZE]);
+
 /** Whether set-up i is the one before it in another depth range. */
 bool setup_repeats(const setups *all, size_t i);
 

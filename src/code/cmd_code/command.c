@@ -55,10 +55,13 @@ static int check_needless(const wanted_code *w) {
     static const struct {
         const char *id;
         unsigned parts;
-    } rows[] = {{"near", CAMERA},   {"far", CAMERA},          {"format", CODES},          {"mapping", CAMERA | CODES},
-                {"ortho", CAMERA},  {"unit", CAMERA},         {"preset", CAMERA | CODES}, {"platform", CAMERA | CODES},
-                {"log-c", CAMERA},  {"fov", MATRIX | PLACES}, {"hfov", MATRIX | PLACES},  {"viewport", MATRIX | PLACES},
-                {"rounding", CODES}};
+    } rows[] = {{"near", CAMERA},           {"far", CAMERA},
+                {"format", CODES},          {"mapping", CAMERA | CODES},
+                {"ortho", CAMERA},          {"unit", CAMERA},
+                {"preset", CAMERA | CODES}, {"platform", CAMERA | CODES},
+                {"log-c", CAMERA},          {"fov", MATRIX | PLACES},
+                {"hfov", MATRIX | PLACES},  {"viewport", MATRIX | PLACES},
+                {"rounding", CODES},        {"depth-range", PLACES | 1 << WHAT_LINEARIZE}};
     const unsigned what = w->o->what;
     const bool encode = what == WHAT_ENCODE;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
@@ -75,6 +78,11 @@ static int check_language(const wanted_code *w) {
     const char *word = option_word("what", what), *mapping = dp_mapping_get(w->setup.spec.mapping)->name;
     const bool script = w->language->form != CODE_INFIX, uniforms = w->o->uniforms;
     const bool whole = what == WHAT_LINEARIZE || what == WHAT_ENCODE; /* but not of each mapping */
+    if (w->setup.ranged && w->setup.spec.ortho)
+        return option_error("depth-range", "conflicts with --ortho: bring depths to 0 to 1 by (d - LO)/(HI - LO)");
+    if (w->setup.ranged && script)
+        return option_error("language", "must be glsl, hlsl, wgsl, msl, c or numpy with --depth-range, got %s",
+                            w->language->name);
     if (script && (!whole || (what == WHAT_ENCODE ? is_written(&w->setup) : w->setup.curve == DP_CURVE_LOG)))
         return option_error("language", "must be glsl, hlsl, wgsl, msl, c or numpy with --%s %s, got %s",
                             whole ? "mapping" : "what", whole ? mapping : word, w->language->name);

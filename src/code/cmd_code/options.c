@@ -43,6 +43,7 @@ static const option_use uses[] = {
     OWN("ortho", .optional = "H",
         HELP("orthographic projection, H half the height of the view; not with linear and log"),
         WITHOUT("perspective; H 5")),
+    OWN("depth-range", ALSO("the function undoes it")),
     TAKE("log-c"), TAKE("hfov"), GROUP_OF(camera_projected),
     TAKE("json"), TAKE("output"), TAKE("quiet"), END};
 
