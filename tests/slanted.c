@@ -42,6 +42,12 @@ bool slanted_draw_camera(rng *r, slanted *s, const slanted_kind *kind, const cha
     return true;
 }
 
+void slanted_draw_range(rng *r, slanted *s) {
+    dp_spec spec = s->setup.spec;
+    rng_range(r, spec.depth_range);
+    assert_int_equal(dp_setup_init(&s->setup, &spec), DP_OK);
+}
+
 /* The ray of a place on the screen, of depth 1. */
 static void ray_of(const slanted *s, double x, double y, double ray[3]) {
     ray[0] = (2.0 * x / s->camera.width - 1.0) / (double)s->camera.p00;

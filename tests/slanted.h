@@ -56,6 +56,8 @@ typedef struct slanted {
 
 /** Draws camera, format and viewport; false when the format's name is none. */
 bool slanted_draw_camera(rng *r, slanted *s, const slanted_kind *kind, const char *format);
+/** Draws the depth range of its viewport, after the camera. */
+void slanted_draw_range(rng *r, slanted *s);
 /** Draws normal, pixel, depth and the places of vertices; false when the farther plane is not seen there. */
 bool slanted_draw_planes(rng *r, slanted *s);
 

@@ -31,6 +31,7 @@ DYNLOAD_FUNCTIONS(FUNCTIONS)
     X(PFNGLDISABLEPROC, glDisable)                                                                                     \
     X(PFNGLDEPTHFUNCPROC, glDepthFunc)                                                                                 \
     X(PFNGLDEPTHMASKPROC, glDepthMask)                                                                                 \
+    X(PFNGLDEPTHRANGEPROC, glDepthRange)                                                                               \
     X(PFNGLCLEARDEPTHPROC, glClearDepth)                                                                               \
     X(PFNGLCLEARPROC, glClear)                                                                                         \
     X(PFNGLPOLYGONOFFSETPROC, glPolygonOffset)                                                                         \
@@ -196,6 +197,7 @@ static bool take_shot(context *g, shot *s) {
     g->glClear(GL_DEPTH_BUFFER_BIT);
     (s->constant != 0.0F || s->slope != 0.0F ? g->glEnable : g->glDisable)(GL_POLYGON_OFFSET_FILL);
     g->glPolygonOffset(s->slope, s->constant);
+    g->glDepthRange((double)s->range[0], s->range[0] != s->range[1] ? (double)s->range[1] : 1.0);
     if (!draw(g, s, false))
         return false;
     if (s->again) {

@@ -42,6 +42,7 @@ typedef struct shot {
     float a, b;            /**< of the program */
     bool triangles;        /**< else points */
     bool ndc_signed;       /**< clip z is drawn from -w to w, as OpenGL has it */
+    float range[2];        /**< depths of the viewport; both 0: 0 and 1 */
     float constant, slope; /**< of a depth bias; 0: none */
     uint32_t count;        /**< vertices */
     float (*vertex)[4];    /**< x and y are clip coordinates, those of a point at the centre of its pixel */

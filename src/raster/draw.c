@@ -30,6 +30,7 @@ raster_status draw_camera_init(draw_camera *camera, const raster_row *row, const
     if (dp_pipeline_init(&camera->pipeline, setup) != DP_OK ||
         (camera->pipeline.ndc_signed && !camera->pipeline.arith->remap))
         return RASTER_MODEL;
+    raster_target_range(&camera->target, (float)setup->spec.depth_range[0], (float)setup->spec.depth_range[1]);
     return RASTER_OK;
 }
 

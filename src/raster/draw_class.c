@@ -43,7 +43,8 @@ raster_status draw_class_init(draw_camera *camera, const dp_setup *setup) {
     if (view->width < 1 || view->width > RASTER_SIZE_MAX || view->height < 1 || view->height > RASTER_SIZE_MAX)
         return RASTER_TARGET;
     camera->setup = *setup;
-    camera->target = (raster_target){&by_class, view->width, view->height, setup->spec.format, dp_path_best(), 0.0F};
+    camera->target =
+        (raster_target){&by_class, view->width, view->height, setup->spec.format, dp_path_best(), 0.0F, 1.0F, 0.0F};
     return !is_affine(camera) || dp_pipeline_init(&camera->pipeline, setup) == DP_OK ? RASTER_OK : RASTER_MODEL;
 }
 

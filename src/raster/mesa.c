@@ -34,10 +34,12 @@ static raster_point window(const raster_target *target, const raster_vertex *v, 
     const float r = 1.0F / v->w;
     const float x = v->x * r;
     const float y = v->y * r;
+    const float z = v->z * r;
     const float half_x = (float)target->width / 2.0F;
     const float half_y = (float)target->height / 2.0F;
     return (raster_point){fused ? raster_fma(x, half_x, half_x) : x * half_x + half_x,
-                          fused ? raster_fma(y, half_y, half_y) : y * half_y + half_y, v->z * r};
+                          fused ? raster_fma(y, half_y, half_y) : y * half_y + half_y,
+                          fused ? raster_fma(z, target->span, target->lo) : z * target->span + target->lo};
 }
 
 static bool in_window(const raster_point *p) {

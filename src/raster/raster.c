@@ -132,8 +132,13 @@ raster_status raster_target_init(raster_target *target, size_t row, int width, i
     if (!has_format(found->model, format))
         return RASTER_FORMAT;
     const float scale = format->kind == DP_FORMAT_FLOAT ? 0.0F : (float)format->code_max;
-    *target = (raster_target){found, width, height, *format, path, scale};
+    *target = (raster_target){found, width, height, *format, path, scale, 1.0F, 0.0F};
     return RASTER_OK;
+}
+
+void raster_target_range(raster_target *target, float lo, float hi) {
+    target->span = hi - lo;
+    target->lo = lo;
 }
 
 raster_status raster_set_up(const raster_target *target, const raster_vertex vertex[3], raster_triangle *drawn) {

@@ -11,8 +11,9 @@
  *                 if (raster_span(&t, &drawn.piece[i], y, &x0, &x1))
  *                     raster_codes(&t, &drawn.piece[i], y, x0, x1, code);
  *
- * Vertices are clip coordinates, clip z from 0 to w, depth range 0 to 1, viewport = target, one sample a pixel, no
- * culling, no bias. Window y grows with clip y; pixel (px, py) has its centre at (px + 0.5, py + 0.5).
+ * Vertices are clip coordinates, clip z from 0 to w, viewport = target, its depth range 0 to 1 until
+ * raster_target_range() says another, one sample a pixel, no culling, no bias. Window y grows with clip y; pixel (px,
+ * py) has its centre at (px + 0.5, py + 0.5).
  *
  * Claim: all 52,655 pixels recorded of llvmpipe, lavapipe, softpipe and SwiftShader at 512 x 512, clipped ones
  * included, in each format that they have, are reproduced. Targets of 2048 x 2048 were measured in D32F.
@@ -101,8 +102,9 @@ typedef struct raster_target {
     const raster_row *row;
     int width, height; /**< pixels */
     dp_format format;
-    dp_path path; /**< which instructions; all give the same bits */
-    float scale;  /**< codes of d = 1; 0 of fp32 */
+    dp_path path;   /**< which instructions; all give the same bits */
+    float scale;    /**< codes of d = 1; 0 of fp32 */
+    float span, lo; /**< of the viewport: window depth is span times clip z / w, and lo */
 } raster_target;
 
 /** Depth over the target: a and b per pixel, and c at (x, y) where the row anchors it at a vertex, else at pixel 0. */
@@ -137,6 +139,12 @@ typedef struct raster_triangle {
  */
 raster_status raster_target_init(raster_target *target, size_t row, int width, int height, const dp_format *format,
                                  dp_path path);
+
+/**
+ * Sets the viewport's depth range: window depths of clip z = 0 and clip z = w, from 0 to 1, of either order; `span` is
+ * their difference in binary32. Triangles are set up for it, and drawn, afterwards.
+ */
+void raster_target_range(raster_target *target, float lo, float hi);
 
 /**
  * Clips a triangle and sets up the plane and the edges of each piece.

@@ -67,9 +67,9 @@ static bool set_plane(const raster_target *target, const raster_vertex v[3], ras
     const float y1 = pixels(y[1], y[0]), y2 = pixels(y[2], y[0]);
     const float z1 = z[1] - z[0], z2 = z[2] - z[0];
     const float area = x1 * y2 - x2 * y1;
-    const float d = 1.0F / area;
-    *plane = (raster_plane){(y2 * z1 - y1 * z2) * d, (x1 * z2 - x2 * z1) * d, z[0], (float)x[0] * (1.0F / SNAP),
-                            (float)y[0] * (1.0F / SNAP)};
+    const float d = target->span / area;
+    *plane = (raster_plane){(y2 * z1 - y1 * z2) * d, (x1 * z2 - x2 * z1) * d, z[0] * target->span + target->lo,
+                            (float)x[0] * (1.0F / SNAP), (float)y[0] * (1.0F / SNAP)};
     return area != 0.0F;
 }
 

@@ -26,11 +26,11 @@ static float snapped(float x, int bits) {
 }
 
 /* The plane set up of clip coordinates. */
-static corner projected(const slanted_camera *c, raster_vertex v) {
-    const float inverse = 1.0F / v.w;
+static corner projected(const slanted_camera *c, const double range[2], raster_vertex v) {
+    const float inverse = 1.0F / v.w, lo = (float)range[0], span = (float)range[1] - lo;
+    const float scaled = (c->reciprocal ? v.z * inverse : v.z / v.w) * span;
     return (corner){snapped(window_of(c, v.x, v.w, c->width), c->bits),
-                    snapped(window_of(c, v.y, v.w, c->height), c->bits), c->reciprocal ? v.z * inverse : v.z / v.w,
-                    v.w};
+                    snapped(window_of(c, v.y, v.w, c->height), c->bits), scaled + lo, v.w};
 }
 
 static const struct {
@@ -85,10 +85,11 @@ static bool modelled(const slanted *s, const raster_vertex v[3], double *depth) 
     const int x = (int)s->px, y = (int)s->py;
     while (strcmp(raster_get(row)->name, s->kind->name) != 0)
         row++;
-    if (!slanted_inside(v) ||
-        raster_target_init(&target, row, s->camera.width, s->camera.height, &s->setup.spec.format, dp_path_best()) !=
-            RASTER_OK ||
-        raster_set_up(&target, v, &drawn) != RASTER_OK || drawn.count != 1 ||
+    if (!slanted_inside(v) || raster_target_init(&target, row, s->camera.width, s->camera.height, &s->setup.spec.format,
+                                                 dp_path_best()) != RASTER_OK)
+        return false;
+    raster_target_range(&target, (float)s->setup.spec.depth_range[0], (float)s->setup.spec.depth_range[1]);
+    if (raster_set_up(&target, v, &drawn) != RASTER_OK || drawn.count != 1 ||
         !raster_span(&target, &drawn.piece[0], y, &from, &to) || x < from || x >= to)
         return false;
     raster_depths(&target, &drawn.piece[0], y, x, x + 1, &value);
@@ -104,7 +105,7 @@ static bool stored(const slanted *s, plane_order *value, int which, double c, do
         return false;
     double at[3][2];
     for (int i = 0; i < 3; i++) {
-        v[i] = projected(&s->camera, clip[i]);
+        v[i] = projected(&s->camera, s->setup.spec.depth_range, clip[i]);
         at[i][0] = (double)v[i].x;
         at[i][1] = (double)v[i].y;
     }
@@ -216,15 +217,18 @@ static double class_factor(slanted *s) {
     return slanted_budget(s, &any, &wide) && isfinite(wide.separation) ? wide.separation / own.separation : 1.0;
 }
 
-TEST(test_used) {
-    tally t = {.name = "share that is used"};
+/* Each pair in a depth range of its own, or all in 0 to 1. */
+static void judge_used(bool ranged, uint64_t cases, tally *t) {
     for (int kind = 0; kind < KINDS; kind++) {
         rng r = rng_make(kinds[kind].of.name);
+        const double least = ranged ? 0.25 : kinds[kind].used;
         double used = 0.1, class = 0.0;
         uint64_t pairs = 0;
-        for (uint64_t i = test_cases(100, 1000, 100000); i > 0; i--) {
+        for (uint64_t i = cases; i > 0; i--) {
             slanted s;
             assert_true(slanted_draw_camera(&r, &s, &kinds[kind].of, "fp32"));
+            if (ranged)
+                slanted_draw_range(&r, &s);
             if (!slanted_draw_planes(&r, &s))
                 continue;
             class += log(class_factor(&s));
@@ -233,10 +237,21 @@ TEST(test_used) {
         }
         print_message("# %s: wrong pairs up to %.3f of the guarantee; the default class takes %.1f times as much\n",
                       kinds[kind].of.name, used, exp(class / (double)pairs));
-        TALLY(&t, used <= 1.0, "%s: wrong at %.3f", kinds[kind].of.name, used);
+        TALLY(t, used <= 1.0, "%s: wrong at %.3f", kinds[kind].of.name, used);
         if (test_effort() != EFFORT_QUICK)
-            TALLY(&t, used >= kinds[kind].used, "%s: only %.3f is used", kinds[kind].of.name, used);
+            TALLY(t, used >= least, "%s: only %.3f is used", kinds[kind].of.name, used);
     }
+}
+
+TEST(test_used) {
+    tally t = {.name = "share that is used"};
+    judge_used(false, test_cases(100, 1000, 100000), &t);
+    tally_end(&t);
+}
+
+TEST(test_used_in_ranges) {
+    tally t = {.name = "share that is used in depth ranges"};
+    judge_used(true, test_cases(100, 1000, 100000), &t);
     tally_end(&t);
 }
 

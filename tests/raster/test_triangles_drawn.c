@@ -12,6 +12,10 @@
 
 enum { ROWS = 4096, PARTS = 32 };
 
+/* Whole triangles; those that sides of the screen cut; both, each pair in a depth range of its own. */
+typedef enum kind { DRAWN, CUT, RANGED } kind;
+static const char *const words[] = {[DRAWN] = "drawn", [CUT] = "cut", [RANGED] = "ranged"};
+
 static const char *const stored_as[] = {"fp32", "unorm24", "unorm16"};
 
 /* Their arithmetic: what becomes of a vertex, and of a depth that is stored. */
@@ -114,7 +118,10 @@ static void judge(slanted *s, size_t row, double share, outcome *out) {
     double nearer;
     if (raster_target_init(&target, row, s->camera.width, s->camera.height, &s->setup.spec.format, dp_path_best()) !=
             RASTER_OK ||
-        !slanted_clip(s, 1, s->c, clip) || !rasterized(s, &target, clip, &of[1]))
+        !slanted_clip(s, 1, s->c, clip))
+        return;
+    raster_target_range(&target, (float)s->setup.spec.depth_range[0], (float)s->setup.spec.depth_range[1]);
+    if (!rasterized(s, &target, clip, &of[1]))
         return;
     s->z = farthest(s, &of[1]);
     if (s->z == 0.0 || !slanted_apart(s, share, &b, &nearer) || !slanted_clip(s, 0, nearer, clip) ||
@@ -128,19 +135,21 @@ static void judge(slanted *s, size_t row, double share, outcome *out) {
 }
 
 /* Until so many pixels have been judged at the guarantee or beyond. */
-static void judge_part(size_t row, const char *format, bool cut, int part, uint64_t pixels, outcome *out) {
+static void judge_part(size_t row, const char *format, kind drawn, int part, uint64_t pixels, outcome *out) {
     const raster_row *of = raster_get(row);
     const int bits = of->plane_bits > 0 ? of->plane_bits : -1;
-    const slanted_kind kind = {of->name, of->anchor, {bits, bits}, drawn_by[row].arith};
+    const slanted_kind by = {of->name, of->anchor, {bits, bits}, drawn_by[row].arith};
     char name[64];
-    snprintf(name, sizeof name, "%s %s %s %d", cut ? "cut" : "drawn", of->name, format, part);
+    snprintf(name, sizeof name, "%s %s %s %d", words[drawn], of->name, format, part);
     rng r = rng_make(name);
     slanted s;
-    while (out->pixels.cases < pixels && slanted_draw_camera(&r, &s, &kind, format)) {
+    while (out->pixels.cases < pixels && slanted_draw_camera(&r, &s, &by, format)) {
         const double share = rng_below(&r, 8) == 0   ? rng_log(&r, 0.02, 1.0)
                              : rng_below(&r, 2) == 0 ? 1.0
                                                      : rng_log(&r, 1.0, 10.0);
-        s.cut = cut ? of->clipping : RASTER_CLIP_ANY;
+        s.cut = drawn == CUT || (drawn == RANGED && rng_below(&r, 4) == 0) ? of->clipping : RASTER_CLIP_ANY;
+        if (drawn == RANGED)
+            slanted_draw_range(&r, &s);
         if (slanted_draw_planes(&r, &s))
             judge(&s, row, share, out);
     }
@@ -153,13 +162,13 @@ static bool has_format(const char *name, const char *format) {
 }
 
 /* One rasterizer and format, in parts that may run at once. */
-static outcome judge_all(size_t row, const char *format, bool cut, uint64_t pixels) {
+static outcome judge_all(size_t row, const char *format, kind drawn, uint64_t pixels) {
     outcome part[PARTS], all = {.pixels = {.name = drawn_by[row].name}};
     assert_string_equal(raster_get(row)->name, drawn_by[row].name);
 #pragma omp parallel for schedule(dynamic)
     for (int i = 0; i < PARTS; i++) {
         part[i] = (outcome){.pixels = {.name = drawn_by[row].name}};
-        judge_part(row, format, cut, i, pixels / PARTS, &part[i]);
+        judge_part(row, format, drawn, i, pixels / PARTS, &part[i]);
     }
     for (int i = 0; i < PARTS; i++) {
         all.pixels.cases += part[i].pixels.cases;
@@ -184,7 +193,7 @@ TEST(test_drawn) {
     for (size_t row = 0; row < sizeof drawn_by / sizeof drawn_by[0]; row++)
         for (size_t f = 0; f < sizeof stored_as / sizeof stored_as[0]; f++)
             if (has_format(drawn_by[row].name, stored_as[f]))
-                pixels += judge_all(row, stored_as[f], false, wanted).pixels.cases;
+                pixels += judge_all(row, stored_as[f], DRAWN, wanted).pixels.cases;
     print_message("# %llu pixels\n", (unsigned long long)pixels);
     if (test_effort() != EFFORT_QUICK)
         assert_true(pixels >= 100000000);
@@ -196,7 +205,22 @@ TEST(test_cut) {
     for (size_t row = 0; row < sizeof drawn_by / sizeof drawn_by[0]; row++)
         for (size_t f = 0; f < sizeof stored_as / sizeof stored_as[0]; f++)
             if (has_format(drawn_by[row].name, stored_as[f])) {
-                const outcome o = judge_all(row, stored_as[f], true, test_cases(100000, 2000000, 50000000));
+                const outcome o = judge_all(row, stored_as[f], CUT, test_cases(100000, 2000000, 50000000));
                 assert_true(o.cut > o.pairs / 4);
             }
+}
+
+/* Thousands of depth ranges, also narrow ones and ones that fall. How much of the guarantee they need is climbed to in
+ * test_triangles.c. */
+TEST(test_ranged) {
+    uint64_t pairs = 0;
+    for (size_t row = 0; row < sizeof drawn_by / sizeof drawn_by[0]; row++)
+        for (size_t f = 0; f < sizeof stored_as / sizeof stored_as[0]; f++)
+            if (has_format(drawn_by[row].name, stored_as[f])) {
+                const outcome o = judge_all(row, stored_as[f], RANGED, test_cases(100000, 2000000, 50000000));
+                assert_true(o.cut > o.pairs / 16);
+                pairs += o.pairs;
+            }
+    print_message("# %llu depth ranges\n", (unsigned long long)pairs);
+    assert_true(pairs >= 1000);
 }
