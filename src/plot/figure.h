@@ -69,6 +69,7 @@ enum {
     FIGURE_SMALL = 1 << 20,  /**< formats of few codes, and planes at which they are seen */
     FIGURE_FARS = 1 << 14,   /**< several far planes, and no formats */
     FIGURE_BESIDE = 1 << 15, /**< curves that another camera's can stand beside, on axes that can be given */
+    FIGURE_RANGED = 1 << 21, /**< set-ups whose viewport moves depth */
     FIGURE_STAGED = 1 << 12, /**< codes that are reached: staged unless --model is given, where NDC is of [-1, 1] */
 };
 

@@ -5,8 +5,8 @@
 static const figure_row rows[] = {
     {"distribution", NULL,
      "the curve d(z) with every code carried over to z (up to 128 codes); codes per unit of depth for real formats",
-     NULL, "Codes along z", CHART_SETUPS, FIGURE_SETUPS | FIGURE_SIGNED | FIGURE_STAGED | FIGURE_BESIDE, NULL, NULL,
-     distribution_build},
+     NULL, "Codes along z", CHART_SETUPS, FIGURE_SETUPS | FIGURE_SIGNED | FIGURE_STAGED | FIGURE_BESIDE | FIGURE_RANGED,
+     NULL, NULL, distribution_build},
     {"staircase", NULL,
      "distribution of a 4-bit integer and of a float of 3 + 3 bits, the article's of Reed 2015: every code carried "
      "over to z",
@@ -20,13 +20,14 @@ static const figure_row rows[] = {
     {"error", NULL,
      "certified envelope of |decoded depth - z| against z, log-log: guaranteed, over that of the lattice", NULL,
      "Worst error of the decoded depth", CHART_SETUPS,
-     FIGURE_SETUPS | FIGURE_FLOAT | FIGURE_SIGNED | FIGURE_GUARANTEED | FIGURE_BESIDE, NULL, NULL, error_build},
+     FIGURE_SETUPS | FIGURE_FLOAT | FIGURE_SIGNED | FIGURE_GUARANTEED | FIGURE_BESIDE | FIGURE_RANGED, NULL, NULL,
+     error_build},
     {"interval", NULL,
      "guaranteed separation against z, log-log, over the z-fighting interval of the lattice; with --viewport that at "
      "any slant, too; with --model float what a census finds as points",
      NULL, "Z-fighting interval", CHART_SETUPS,
      FIGURE_SETUPS | FIGURE_FLOAT | FIGURE_TOLERANCE | FIGURE_SIGNED | FIGURE_SLANTED | FIGURE_GUARANTEED |
-         FIGURE_BESIDE,
+         FIGURE_BESIDE | FIGURE_RANGED,
      NULL, NULL, interval_build},
     {"budget", NULL, "shares of the separation that binary32 arithmetic guarantees, cause by cause, against z", NULL,
      "Guaranteed separation by cause", CHART_PANELS,

@@ -29,9 +29,11 @@ static bool is_reached(const dp_setup *setup, uint32_t code) {
     return !(step > 0) || fmod(dp_format_value(&setup->spec.format, code), step) == 0;
 }
 
+/* From near to far. */
 static uint32_t reached(const dp_setup *setup) {
+    const uint32_t a = dp_code(setup, setup->spec.znear), b = dp_code(setup, setup->spec.zfar);
     uint32_t count = 0;
-    for (uint32_t code = 0; code <= setup->spec.format.code_max; code++)
+    for (uint32_t code = a < b ? a : b; code <= (a < b ? b : a); code++)
         count += is_reached(setup, code);
     return count;
 }

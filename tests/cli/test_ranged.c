@@ -521,6 +521,60 @@ TEST(texture) {
     tally_end(&t);
 }
 
+/* ---- plot -------------------------------------------------------------------------------------------------------- */
+
+/* Every code of four bits that the range keeps, at the depth that it is read as: that of its window depth, or a plane.
+ */
+TEST(staircase) {
+    static const double ranges[][2] = {{0.25, 1}, {0, 0.5}, {1, 0.125}, {0.75, 0.25}};
+    tally t = {.name = "plot distribution --depth-range"};
+    for (size_t i = 0; i < 2 * sizeof ranges / sizeof ranges[0]; i++) {
+        const double *e = ranges[i / 2], low = fmin(e[0], e[1]), high = fmax(e[0], e[1]);
+        const bool turned = i % 2 == 1;
+        json_t *root = json_printed(0, "plot distribution -F unorm4 -m %s -n 1 -f 8 --depth-range %g:%g",
+                                    turned ? "reversed" : "d3d", e[0], e[1]);
+        const uint32_t first = (uint32_t)floor(low * 15 + 0.5), last = (uint32_t)floor(high * 15 + 0.5);
+        const json_t *points = node_at(root, "panels[0].series[0].points");
+        char title[64];
+        snprintf(title, sizeof title, "unorm4 %s, %s%u%s codes", turned ? "reversed" : "d3d", "", last - first + 1,
+                 last - first < 15 ? " of 16" : "");
+        TALLY(&t, strcmp(text_at(root, "panels[0].title"), title) == 0, "%s", text_at(root, "panels[0].title"));
+        TALLY(&t, json_array_size(points) == last - first + 1, "%g:%g: %zu codes, should be %u", e[0], e[1],
+              json_array_size(points), last - first + 1);
+        for (uint32_t code = first; code <= last; code++) {
+            const double d = fmin(fmax(code / 15.0, low), high), part = (d - e[0]) / (e[1] - e[0]),
+                         way = turned ? 1 - part : part, z = 8 / (8 - 7 * way);
+            TALLY(&t, fabs(number_at(points, "[%u].depth", code - first) - code / 15.0) <= 1e-15, "code %u", code);
+            TALLY(&t, fabs(number_at(points, "[%u].z", code - first) - z) <= 1e-13 * z, "%g:%g: code %u is at %.17g",
+                  e[0], e[1], code, z);
+        }
+        json_decref(root);
+    }
+    tally_end(&t);
+}
+
+/* Codes in a unit of depth are the slope of window depth times the steps, where cells are narrow. */
+TEST(density) {
+    const dp_format formats[] = {oracle_unorm(24)};
+    rng r = rng_make("ranged density");
+    tally t = {.name = "codes along z in a depth range"};
+    for (uint64_t i = test_cases(6, 30, 100); i > 0; i--) {
+        const viewport v = any_viewport(&r, formats, 1);
+        const double per = reciprocals_per_depth(&v.spec) * 0x1p-24;
+        json_t *root = json_printed(0, "plot distribution %s", v.words);
+        const json_t *points = node_at(root, "panels[0].series[0].points");
+        TALLY(&t, json_array_size(points) > 1, "%s: no curve", v.words);
+        for (size_t k = 0; k < json_array_size(points); k++) {
+            const double z = number_at(points, "[%zu].z", k), width = z * z * per;
+            if (width < 1e-4 * z && z > v.spec.znear * 1.01 && z < v.spec.zfar * 0.99)
+                TALLY(&t, fabs(number_at(points, "[%zu].density", k) * width - 1) <= 0.02, "%s: %g codes a unit at %g",
+                      v.words, number_at(points, "[%zu].density", k), z);
+        }
+        json_decref(root);
+    }
+    tally_end(&t);
+}
+
 /* ---- bias -------------------------------------------------------------------------------------------------------- */
 
 /* A unit more or less in binary32, as OpenGL moves it: r is assumed to be 2^-N. */
@@ -625,6 +679,9 @@ TEST(refusals) {
         check_says(2, "(d - LO)/(HI - LO)", "%s --depth-range 0:.5", lines[i]);
     check_says(2, "must be one range for bias, got '0:.5,.5:1': table compares several",
                "bias --depth-range 0:.5,.5:1");
+    check_says(2, "--depth-range", "plot share -F d24 --depth-range 0:.5");
+    check_says(2, "--depth-range", "plot map -F d24 --depth-range 0:.5");
+    check_says(0, "", "plot error -F d24 -m gl --depth-range 0:.5 --csv");
     check_says(2, "must not fall in d3d12", "bias --api d3d12 --depth-range 1:0");
     check_says(0, "", "bias --api vulkan --depth-range 1:0");
     check_says(2, "conflicts with --rasterize", "zfight --rasterize --depth-range 0:.5");

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "camera/cmd/raster_setups.h"
+#include "camera/depth_range.h"
 #include "camera/unit.h"
 #include "cli/list.h"
 #include "core/append.h"
@@ -304,7 +305,8 @@ static int resolve_setups(plotting *p) {
     choose_setups(&in_model, p->row);
     if ((p->row->takes & FIGURE_BINARY32) != 0)
         in_model.camera.model = DP_MODEL_FLOAT;
-    for (size_t i = 0; (p->row->takes & FIGURE_STAGED) != 0 && i < in_model.camera.mapping_count; i++)
+    const bool staged = (p->row->takes & FIGURE_STAGED) != 0 && !camera_range_moves(in_model.camera.depth_range);
+    for (size_t i = 0; staged && i < in_model.camera.mapping_count; i++)
         if (!option_given(p->o->line, "model") && dp_mapping_get(in_model.camera.mappings[i])->ndc_signed)
             in_model.camera.model = DP_MODEL_STAGED;
     in_model.camera.budgeted = (p->row->takes & FIGURE_TERMS) != 0;

@@ -40,6 +40,7 @@ static const option_use of_cost[] = {OWN("at", WITHOUT("a tenth of far")),
 static const option_use of_axes[] = {TAKE("beside"), TAKE("axes"), END};
 static const option_use of_ranges[] = {
     OWN("range", HELP("the depths shown"), WITHOUT("near to far, or to 1e6 times near")), END};
+static const option_use of_moved[] = {TAKE("depth-range"), END};
 static const option_use of_scene[] = {OWN("format", DEFAULT("fp32")), OWN("mapping", DEFAULT("reversed")),
     OWN("angle", HELP(SCENE_ANGLE), DEFAULT("1")), GROUP_OF(scene_model), END};
 static const option_use of_shadow[] = {OWN("format", DEFAULT("fp32")), OWN("mapping", DEFAULT("d3d")),
@@ -65,7 +66,7 @@ static const option_use uses[] = {
     FOR(FIGURE_TERMS, origin_terms), FOR(FIGURE_MINE, judge_mine),
     FOR(FIGURE_SETUPS, of_setups), FOR(FIGURE_SETUPS | FIGURE_MODEL, of_setups_and_models),
     FOR(FIGURE_SETUPS | FIGURE_MODEL | FIGURE_SHADOW, of_cameras),
-    FOR(FIGURE_METHODS, of_methods), FOR(FIGURE_TIMED, of_planes),
+    FOR(FIGURE_RANGED, of_moved), FOR(FIGURE_METHODS, of_methods), FOR(FIGURE_TIMED, of_planes),
     FOR(FIGURE_FARS, of_fars), FOR(FIGURE_AT, of_one_depth),
     FOR(FIGURE_SETUPS | FIGURE_SHADOW | FIGURE_FILE | FIGURE_FARS, of_ranges),
     FOR(VIEWED, of_views), FOR(SLANTED, of_slants), TAKE("unit"), GROUP_OF(figure_picture),
