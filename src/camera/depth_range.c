@@ -30,12 +30,6 @@ bool camera_range_suits(const bias_api *api, const double range[2], camera_fault
                         api->name, range[0], range[1]);
 }
 
-bool camera_range_views(const double range[2], const char *by, camera_fault *fault) {
-    return !camera_range_moves(range) ||
-           camera_fails(fault, "depth_range",
-                        "conflicts with @%s: what is known of slanted surfaces is of the depth range 0 to 1", by);
-}
-
 bool camera_range_refused(const dp_spec *spec, dp_status status, camera_fault *fault) {
     if (status == DP_ERROR_WINDOW) /* its ends were checked */
         camera_fails(fault, "depth_range",

@@ -20,9 +20,6 @@ bool camera_range_takes(const char *api, const double range[2], camera_fault *fa
 /** The second of these questions alone. */
 bool camera_range_suits(const bias_api *api, const double range[2], camera_fault *fault);
 
-/** Whether surfaces may slant, which `by` asks for: "viewport". */
-bool camera_range_views(const double range[2], const char *by, camera_fault *fault);
-
 /** Why a set-up of that range was refused; false, and nothing said, where it was not for that. */
 bool camera_range_refused(const dp_spec *spec, dp_status status, camera_fault *fault);
 

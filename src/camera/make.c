@@ -66,8 +66,6 @@ bool camera_viewed(camera_said *c, camera_fault *fault) {
         return camera_fails(fault, "matrix", "of four tangents needs @viewport: surfaces face the camera");
     if (!slanted)
         return true;
-    if (!camera_range_views(c->depth_range, c->use.drawn ? "rasterize" : "viewport", fault))
-        return false;
     if (c->ortho)
         return camera_fails(fault, c->use.drawn ? "rasterize" : "viewport",
                             "conflicts with @ortho, which no slant is bounded in");
@@ -324,8 +322,7 @@ bool camera_assumed(const camera_said *c, const dp_spec *spec, dp_spec *out) {
     camera_said assumed = *c;
     camera_fault fault = {.key = NULL};
     dp_triangles *t = &assumed.triangles;
-    if (spec->triangles.width > 0 || camera_range_moves(c->depth_range) ||
-        dp_mapping_get(spec->mapping)->curve != DP_CURVE_PERSPECTIVE)
+    if (spec->triangles.width > 0 || dp_mapping_get(spec->mapping)->curve != DP_CURVE_PERSPECTIVE)
         return false;
     *t = dp_triangles_default();
     take_canvas(c, t);

@@ -144,11 +144,6 @@ bool camera_range_suits(const bias_api *api, const double range[2], camera_fault
     return true;
 }
 
-bool camera_range_views(const double range[2], const char *by, camera_fault *fault) {
-    (void)by;
-    return camera_range_suits(NULL, range, fault);
-}
-
 bool camera_range_refused(const dp_spec *spec, dp_status status, camera_fault *fault) {
     (void)spec;
     (void)status;

@@ -33,7 +33,7 @@ static bool draw(const slanted *s, const raster_target *target, int which, layer
     out->m = fmax(fabs((double)piece->plane.a), fabs((double)piece->plane.b));
     out->highest = 0.0;
     for (int i = 0; i < 3; i++)
-        out->highest = fmax(out->highest, (double)(v[i].z / v[i].w));
+        out->highest = fmax(out->highest, (double)(v[i].z / v[i].w * target->span + target->lo));
     return true;
 }
 
@@ -104,6 +104,7 @@ static void judge(slanted *s, size_t row, double share, double more, bool sloped
     if (!slanted_fit(s, c) || raster_target_init(&target, row, s->camera.width, s->camera.height, &s->setup.spec.format,
                                                  dp_path_best()) != RASTER_OK)
         return;
+    raster_target_range(&target, (float)s->setup.spec.depth_range[0], (float)s->setup.spec.depth_range[1]);
     dp_spec spec = s->setup.spec;
     spec.model = DP_MODEL_EXACT;
     spec.triangles = s->class;
@@ -151,6 +152,8 @@ TEST(test_drawn_twice) {
             const double share = rng_below(&r, 4) == 0 ? drawn[i].share : 1.0;
             const bool sloped = rng_below(&r, 3) == 0;
             const double more = rng_below(&r, 2) == 0 || share < 1.0 ? 1.0 : rng_log(&r, 1.0, 100.0);
+            if (share == 1.0 && rng_below(&r, 2) == 0)
+                slanted_draw_range(&r, &s);
             if (slanted_draw_planes(&r, &s))
                 judge(&s, row, share, more, sloped, &out);
         }

@@ -334,6 +334,36 @@ TEST(zfight) {
     tally_end(&t);
 }
 
+/* Pairs of slanted planes, drawn: none at what is guaranteed is wrong, and it is what table says at that slant. */
+TEST(rasterized) {
+    static const char *const rasters[] = {"llvmpipe", "lavapipe", "swiftshader"};
+    dp_format formats[3];
+    rng r = rng_make("ranged rasterize");
+    assert_int_equal(dp_format_parse("unorm16", &formats[0]) + dp_format_parse("fp32", &formats[1]), 2);
+    tally t = {.name = "zfight --rasterize --depth-range"};
+    for (uint64_t i = test_cases(4, 20, 80); i > 0; i--) {
+        const viewport v = any_viewport(&r, formats, 2);
+        const char *raster = rasters[rng_below(&r, 3)];
+        const double lo = rng_log(&r, v.spec.znear * 1.1, v.spec.znear * 4);
+        json_t *root = json_printed(0, "zfight %s --rasterize --raster %s --range %.17g:%.17g --sample 20", v.words,
+                                    raster, lo, 2 * lo);
+        const double used = number_at(root, "setups[0].used"), z = number_at(root, "setups[0].z"),
+                     slant = number_at(root, "setups[0].slant"), bound = number_at(root, "setups[0].bound");
+        json_decref(root);
+        TALLY(&t, isnan(used) || (used > 0 && used <= 1), "%s, %s: %g of the guarantee", v.words, raster, used);
+        if (isnan(used))
+            continue;
+        root =
+            json_printed(0, "table %s --model float%s --viewport 1920x1080 --raster %s --slant %.17g:%.17g --at %.17g",
+                         v.words, is_signed(&v.spec) ? " --arith mesa-remap" : "", raster, slant, slant, z);
+        const double said = number_at(root, "setups[0].rows[0].guarantee_slanted");
+        TALLY(&t, fabs(said - bound) <= 1e-6 * bound, "%s, %s: %g is guaranteed at %g, %g drawn", v.words, raster, said,
+              z, bound);
+        json_decref(root);
+    }
+    tally_end(&t);
+}
+
 /* ---- solve and check: one step of an integer buffer moves 1/z by as much everywhere -------------------------------
  */
 
@@ -654,14 +684,12 @@ TEST(refusals) {
         {"--depth-range 0:.5,", "must be LO:HI, got '0:.5,'", 2},
         {"--depth-range 0:.5,.5", "must be LO:HI, two window depths from 0 to 1, got '.5'", 2},
         {"--depth-range 0:.5,.5:2", "must be two window depths", 2},
-        {"--depth-range 0:1,0:.5 --viewport 640x480", "conflicts with --viewport", 2},
         {"--depth-range 0:1,1:0 --preset unity", "must not fall in d3d11", 2},
         {"--depth-range 0:1,1:0 --platform chrome-d3d", "must not fall in webgpu", 2},
         {"--depth-range 0:1,0:.5 -m log", "needs one of the mappings d3d, gl, reversed, gl-reversed, got log", 2},
         {"--depth-range 0:.5 -m log", "needs one of the mappings d3d, gl, reversed, gl-reversed, got log", 2},
         {"--depth-range 0:.5 -m linear", "got linear, whose depth a shader writes", 2},
         {"--depth-range 0:.5 -m d3d --model staged", "must be exact, float or auto", 2},
-        {"--depth-range 0:.5 --viewport 640x480", "conflicts with --viewport", 2},
         {"--depth-range 0:.5 --link", "--depth-range: conflicts with --link", 2},
         {"--depth-range 0:.5 --constants", "does not apply with --constants", 2},
         {"--depth-range 1:0 --preset unity", "must not fall in d3d11", 2},
@@ -684,7 +712,6 @@ TEST(refusals) {
     check_says(0, "", "plot error -F d24 -m gl --depth-range 0:.5 --csv");
     check_says(2, "must not fall in d3d12", "bias --api d3d12 --depth-range 1:0");
     check_says(0, "", "bias --api vulkan --depth-range 1:0");
-    check_says(2, "conflicts with --rasterize", "zfight --rasterize --depth-range 0:.5");
     check_says(2, "--depth-range: conflicts with --remedy", "bias --remedy ndc:1e-5 --depth-range 0:.5");
     check_says(2, "--depth-range: conflicts with --from-origin", "budget --from-origin 1e4 --depth-range 0:.5");
     check_says(2, "conflicts with --metric: metric depth", "texture a.png --metric mm --depth-range 0:.5");
@@ -719,8 +746,6 @@ TEST(refused_files) {
         {"depth_range = (0, 2);", "", "depth_range: must be (LO, HI)"},
         {"depth_range = (0, 0);", "", "got 0 twice"},
         {"depth_range = (0.5, 0.5000001);", "", "must be two window depths"},
-        {"depth_range = (0, 0.5); viewport = [64, 64]; fov = 60; raster = \"spec-d3d\";", "",
-         "conflicts with viewport"},
         {"depth_range = (0, 0.5); from_origin = 1e5; scheme = \"split\";", "", "not with depth_range"},
         {"depth_range = (1, 0);", "bias = { api = \"d3d11\"; units = 1; }; range = [1, 2];", "must not fall in d3d11"},
     };

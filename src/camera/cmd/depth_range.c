@@ -91,8 +91,7 @@ bool setup_repeats(const setups *all, size_t i) {
 static int check_others(const camera_asked *c) {
     camera_fault fault = {.key = NULL};
     for (size_t i = 1; i < c->range_count; i++) {
-        bool fine = camera_range_takes(c->platform != NULL ? c->platform->api : NULL, c->ranges[i], &fault) &&
-                    (!option_given(c->line, "viewport") || camera_range_views(c->ranges[i], "viewport", &fault));
+        bool fine = camera_range_takes(c->platform != NULL ? c->platform->api : NULL, c->ranges[i], &fault);
         for (size_t k = 0; k < c->preset_count && fine && c->platform == NULL; k++)
             fine = camera_range_takes(c->presets[k]->api, c->ranges[i], &fault);
         if (!fine)
