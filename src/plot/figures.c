@@ -66,7 +66,8 @@ static const figure_row rows[] = {
      "as "
      "that",
      NULL, "Z-fighting of a wall and a decal, as rasterized", 1,
-     FIGURE_SETUPS | FIGURE_AT | FIGURE_FLOAT | FIGURE_BINARY32 | FIGURE_DRAWN, NULL, "unorm24", fight_build},
+     FIGURE_SETUPS | FIGURE_AT | FIGURE_FLOAT | FIGURE_BINARY32 | FIGURE_DRAWN | FIGURE_RANGED, NULL, "unorm24",
+     fight_build},
     {"scene", NULL,
      "a model from above and from the side: where surfaces overlap, colour = depth from which they may z-fight", NULL,
      "Depths from which surfaces may z-fight", 1, FIGURE_MODEL, NULL, NULL, scene_build},

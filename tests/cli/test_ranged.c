@@ -364,6 +364,28 @@ TEST(rasterized) {
     tally_end(&t);
 }
 
+/* A wall and a decal: pixels are wrong nearer than is guaranteed, and none is wrong there. */
+TEST(fight) {
+    rng r = rng_make("ranged fight");
+    tally t = {.name = "plot fight --depth-range"};
+    for (uint64_t i = test_cases(2, 8, 30); i > 0; i--) {
+        viewport v;
+        dp_format formats[3];
+        assert_int_equal(dp_format_parse("unorm24", &formats[0]), 1);
+        do
+            v = any_viewport(&r, formats, 1);
+        while (fabs(v.spec.depth_range[1] - v.spec.depth_range[0]) < 0.01);
+        const double at = v.spec.znear * 5;
+        json_t *root = json_printed(0, "plot fight %s --at %.17g --raster llvmpipe --json", v.words, at);
+        const char *near_one = text_at(root, "panels[0].title"), *far_one = text_at(root, "panels[1].title");
+        TALLY(&t, strstr(near_one, " 0 % wrong") == NULL && strstr(far_one, "the guarantee: 0 % wrong") != NULL,
+              "%s: %s; %s", v.words, near_one, far_one);
+        TALLY(&t, strstr(text_at(root, "subtitle"), "depth range") != NULL, "%s: the range is not said", v.words);
+        json_decref(root);
+    }
+    tally_end(&t);
+}
+
 /* ---- solve and check: one step of an integer buffer moves 1/z by as much everywhere -------------------------------
  */
 
