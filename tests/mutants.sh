@@ -186,7 +186,7 @@ work() { # work TREE: takes the next row that nobody has taken, until none is le
         cp "$1/kept" "$1/$file" # newer than what was made of the change, so make makes it again
         printf '%s\n' "$room$mark$verdict$mark$table:$line: $file$mark$old$mark$new$mark$seen" \
             >"$folder/verdict.$number" # echo would take the backslashes
-        printf '  %3d of %d  %3d s  %-48s %s\n' "$(find "$folder" -name 'verdict.*' | wc -l)" "$count" \
+        printf '  %3d of %d  %3d s  %-48s %s\n' "$(find "$folder" -maxdepth 1 -name 'verdict.*' | wc -l)" "$count" \
             $(($(date +%s) - started)) "$file:$line" "$verdict" >&2
     done <"$folder/rows"
 }
