@@ -66,8 +66,7 @@ static const word_row rows[] = {
     {"depthRangeFor3D", "depthEpsilon numSublayers getDepthModeFor3D getDepthModeForSublayer",
      "the depth range of MapLibre's 3D layers, 0 to 1 - 14 (L + 2)/65536 of L layers; each flat one before them has 14 "
      "single depths 1/65536 apart, as its tiles' zooms may overlap",
-     "MapLibre GL JS, src/render/painter.ts",
-     "table --preset maplibre:zoom=14,height=800 --depth-range 0:0.97821,0:1 --at 5km"},
+     "MapLibre GL JS, src/render/painter.ts", "table --preset maplibre:zoom=14,height=800 --depth-range 0:0.97821"},
     {"splat", "splats gaussian-splatting 3dgs sort-key splatSortDistanceMapPrecision",
      "viewers sort Gaussian splats by 10 to 24 bits of z over the range of all, cut: as an orthographic depth; which "
      "of "

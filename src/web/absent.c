@@ -112,13 +112,15 @@ int parse_depth_ranges(asked_line *line, const option_row *row, const char *valu
 
 const char *setup_range_option(const dp_spec *spec, char out[SETUP_RANGE_SIZE]) {
     (void)spec;
-    return setup_range(NULL, out);
+    *out = '\0';
+    return out;
 }
 
 const char *setup_slice(const camera_asked *c, const dp_setup *setup, char out[SETUP_RANGE_SIZE]) {
     (void)c;
     (void)setup;
-    return setup_range(NULL, out);
+    *out = '\0';
+    return out;
 }
 
 bool setup_repeats(const setups *all, size_t i) {

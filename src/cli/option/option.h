@@ -193,6 +193,7 @@ typedef struct option_own {
     const char *also;     /**< what it does beside that */
     const char *standard; /**< the default, which is read as if it were typed, */
     const char *without;  /**< and what it means, or holds without the option; "": nothing is said of it */
+    const char *instead;  /**< what is meant where another part of the command does not take it */
     option_parser *parse; /**< another language than the row's */
 } option_own;
 
@@ -228,6 +229,7 @@ typedef struct option_use {
 #define ALSO(words)    .also = (words)
 #define DEFAULT(typed) .standard = (typed)
 #define WITHOUT(words) .without = (words)
+#define INSTEAD(words) .instead = (words)
 
 /** A row as a command takes it. */
 typedef struct option_taken {

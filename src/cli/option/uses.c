@@ -92,9 +92,11 @@ enum { OTHERS_NAMED = 6 }; /* more parts are no help */
 static int refuse_part(const option_row *row, const command_row *v, const command_part *now) {
     const char *lead = v->part_of != NULL ? v->part_of : "";
     char names[OPTION_TEXT_SIZE] = "";
-    const char *last = "";
+    const char *last = "", *instead = option_used(v, ~0U, row).own.instead;
     command_part part;
     size_t others = 0;
+    if (instead == NULL)
+        instead = row->instead != NULL ? row->instead : "";
     for (size_t i = 0; option_part_get(v, i, &part); i++)
         if (option_used(v, part.bits, option_find(v, row->name)).row != NULL &&
             (others == 0 || strncmp(part.words, last, strlen(last)) != 0 ||
@@ -106,8 +108,7 @@ static int refuse_part(const option_row *row, const command_row *v, const comman
         return EXIT_FINE;
     if (others > OTHERS_NAMED)
         return option_refuse(row, "does not apply %s%s", lead, now->words);
-    return option_refuse(row, "does not apply %s%s, only %s%s%s", lead, now->words, lead, names,
-                         row->instead != NULL ? row->instead : "");
+    return option_refuse(row, "does not apply %s%s, only %s%s%s", lead, now->words, lead, names, instead);
 }
 
 int option_check_parts(const asked_line *line, const command_row *v, size_t part) {

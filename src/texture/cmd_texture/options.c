@@ -270,7 +270,8 @@ const option_table texture_options = {.rows = texture_rows};
 
 /* clang-format off */
 enum { TEXTURE_EFFECT = 1, TEXTURE_PLACED = 2, TEXTURE_IMAGE = 4 };
-static const option_use of_effect[] = {TAKE("at"), END};
+static const option_use of_effect[] = {
+    OWN("at", INSTEAD("; the levels of a sensor there are those of 'depthprec table --lattice NAME --at Z'")), END};
 static const option_use of_image[] = {
     TAKE("sky"), TAKE("depth-range"), TAKE("metric"), TAKE("stereo"), TAKE("lattice"), TAKE("radial"),
     TAKE("intrinsics"), TAKE("as"), TAKE("error-map"),
