@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Files that are written anew, by each kind of writer: whole or not at all, with the mode that they had, and not where
  * their owner has said that nobody may. */
+#include <errno.h>
 #include <grp.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -153,6 +154,19 @@ TEST(checked_beforehand) {
     assert_int_not_equal(output_check("."), EXIT_FINE);
     assert_int_not_equal(output_check("/none/there"), EXIT_FINE);
     assert_int_not_equal(output_check("/dev/null/there"), EXIT_FINE);
+}
+
+/* A pager may be left before all is read, which is no error; of another reader it is told by the exit status. */
+TEST(readers_that_leave) {
+    for (int paged = 0; paged < 2; paged++) {
+        output out;
+        const char *const path = scratch_file("left");
+        assert_int_equal(output_open(&out, path), EXIT_FINE);
+        out.error = EPIPE;
+        out.paged = paged != 0;
+        assert_int_equal(output_close(&out), paged ? EXIT_FINE : EXIT_IO);
+        assert_int_not_equal(access(path, F_OK), 0);
+    }
 }
 
 /* A link to what is not there yet stays a link: what is written comes to stand where it points. */
