@@ -67,4 +67,11 @@ TEST(each_number) {
     }
 }
 
+/* 525 pixels times 0.075 m is 39.375 m a pixel of disparity: 1/z in steps of 1/39.375. */
+TEST(levels_of_stereo) {
+    check_says_all(0, "table --lattice stereo:525,0.075 --at 4m",
+                   SAID("1/z in steps of 0.0253968;", "over a step 39.375 m"));
+    check_says(0, "over a step 78.75 m", "table --lattice stereo:525,0.075,0.5 --at 4m");
+}
+
 LIST_TEST(check_apart)
