@@ -53,13 +53,17 @@ static dp_pair product(dp_pair a, double b) {
     return dp_quick_two_sum(hi.hi, hi.lo + a.lo * b);
 }
 
-/* With the slopes put in: a half (NDC - centre), NDC = (2i + 1 - width)/width. */
-static camera_oblique oblique_of(const dp_projection *p, uint32_t width, uint32_t height) {
+/* With the slopes put in: a half (NDC - centre), NDC = (2i + 1 - width)/width. The viewport takes the window depths
+ * from 0 to 1 into its depth range. */
+static camera_oblique oblique_of(const dp_projection *p, const dp_setup *setup, uint32_t width, uint32_t height) {
+    const double from = (double)(float)setup->spec.depth_range[0],
+                 by = (double)(float)setup->spec.depth_range[1] - from;
     const dp_pair x = quotient((dp_pair){p->tilt[0], 0}, p->scale[0]),
                   y = quotient((dp_pair){p->tilt[1], 0}, p->scale[1]);
     const dp_pair moved = dp_pair_sum(product(x, -p->centre[0]), product(y, -p->centre[1]));
-    return (camera_oblique){p->oblique, p->pull, quotient(x, width), quotient(y, height),
-                            dp_pair_sum((dp_pair){p->base[0], p->base[1]}, moved)};
+    const dp_pair base = dp_pair_sum((dp_pair){p->base[0], p->base[1]}, moved);
+    return (camera_oblique){p->oblique, p->pull * by, product(quotient(x, width), by), product(quotient(y, height), by),
+                            dp_pair_sum((dp_pair){from, 0}, product(base, by))};
 }
 
 /* ---- The camera -------------------------------------------------------------------------------------------------- */
@@ -90,7 +94,7 @@ const char *camera_init(texture_camera *camera, const dp_setup *setup, const cam
             camera->half[k] = p->half[k];
             camera->centre[k] = p->centre[k];
         }
-        camera->oblique = oblique_of(p, spec->width, spec->height);
+        camera->oblique = oblique_of(p, setup, spec->width, spec->height);
     }
     return NULL;
 }

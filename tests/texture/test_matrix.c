@@ -15,6 +15,7 @@ typedef struct view_case {
     bool is_signed, reversed, backwards, down, oblique; /* down: NDC has y down */
     double znear, zfar;                                 /* of the frustum before its near plane was moved */
     double half[2], centre[2];
+    double range[2]; /* of the viewport */
     dp_format format;
     const char *mapping;
     uint32_t codes[ALL];
@@ -22,6 +23,15 @@ typedef struct view_case {
 } view_case;
 
 /* ---- Matrices ---------------------------------------------------------------------------------------------------- */
+
+static bool is_ranged(const view_case *c) {
+    return c->range[0] != 0 || c->range[1] != 1;
+}
+
+/* Whether what is farther has a smaller code. */
+static bool falls(const view_case *c) {
+    return c->reversed != (c->range[1] < c->range[0]);
+}
 
 /* In view space with z ahead; the columns of z change their sign for a camera that looks along -z. */
 static void make_frustum(rng *r, view_case *c) {
@@ -117,6 +127,11 @@ static void ray_init(ray *out, const view_case *c, int column, int row) {
         mpq_div_2exp(out->k, out->k, 1);
         mpq_div_2exp(out->e, out->e, 1);
     }
+    mpq_set_d(x, c->range[0]);
+    mpq_set_d(y, c->range[1] - c->range[0]); /* of binary32 numbers, so that nothing is lost */
+    mpq_mul(out->e, out->e, y);
+    mpq_mul(out->k, out->k, y);
+    mpq_add(out->k, out->k, x);
     mpq_clears(x, y, NULL);
 }
 
@@ -135,11 +150,15 @@ static bool ray_eye(const ray *r, mpq_t z, const mpq_t d) {
 
 /* ---- Images ------------------------------------------------------------------------------------------------------ */
 
-/* A code that somebody sees, mostly, or any. */
+/* A code that somebody sees, mostly, or any in the range whose cell lies in it, too. */
 static uint32_t code_for(rng *r, const view_case *c, const ray *at) {
     const double z = c->znear * rng_log(r, 1, 1e4), d = mpq_get_d(at->k) + mpq_get_d(at->e) / z;
-    const bool seen = d > 0 && d < 1 && rng_below(r, 8) != 0;
-    return seen ? oracle_encode(&c->format, DP_ROUND_NEAREST, d) : 1 + (uint32_t)rng_below(r, c->format.code_max - 1);
+    const double least = fmin(c->range[0], c->range[1]), most = fmax(c->range[0], c->range[1]);
+    const uint32_t edge = is_ranged(c) ? 2 : 0, first = oracle_encode(&c->format, DP_ROUND_NEAREST, least) + edge,
+                   last = oracle_encode(&c->format, DP_ROUND_NEAREST, most) - edge;
+    const bool seen = d > least && d < most && rng_below(r, 8) != 0;
+    const uint32_t code = seen ? oracle_encode(&c->format, DP_ROUND_NEAREST, d) : 0;
+    return seen && code >= first && code <= last ? code : first + 1 + (uint32_t)rng_below(r, last - first - 1);
 }
 
 static void save_shot(view_case *c) {
@@ -168,7 +187,7 @@ static void write_shot(rng *r, view_case *c) {
 }
 
 static void make_case(rng *r, view_case *c) {
-    *c = (view_case){0};
+    *c = (view_case){.range = {0, 1}};
     make_frustum(r, c);
     if (rng_below(r, 4) != 0)
         make_oblique(r, c);
@@ -176,6 +195,18 @@ static void make_case(rng *r, view_case *c) {
     c->format = rng_below(r, 2) == 0 ? oracle_unorm(24) : oracle_float(8, 23, 127);
     c->format.name[0] = '\0';
     strcpy(c->format.name, c->format.kind == DP_FORMAT_UNORM ? "unorm24" : "fp32");
+    write_shot(r, c);
+}
+
+/* Half of them in a depth range of enough codes. */
+static void make_ranged(rng *r, view_case *c) {
+    double range[2];
+    make_case(r, c);
+    rng_range(r, range);
+    if (rng_below(r, 2) == 0 || !(fabs(range[1] - range[0]) > 1e-5))
+        return;
+    for (int i = 0; i < 2; i++)
+        c->range[i] = (double)(float)range[i];
     write_shot(r, c);
 }
 
@@ -203,9 +234,9 @@ static void eyes_of(const view_case *c, const ray *r, uint32_t code, eyes *e) {
     mpq_inits(d, e->own, e->lo, e->hi, NULL);
     oracle_value(d, &c->format, code);
     e->has_own = ray_eye(r, e->own, d);
-    oracle_boundary(d, &c->format, DP_ROUND_NEAREST, c->reversed ? code + 1 : code);
+    oracle_boundary(d, &c->format, DP_ROUND_NEAREST, falls(c) ? code + 1 : code);
     e->has_lo = ray_eye(r, e->lo, d);
-    oracle_boundary(d, &c->format, DP_ROUND_NEAREST, c->reversed ? code : code + 1);
+    oracle_boundary(d, &c->format, DP_ROUND_NEAREST, falls(c) ? code : code + 1);
     e->has_hi = ray_eye(r, e->hi, d);
     mpq_clear(d);
 }
@@ -264,15 +295,18 @@ static void judge_pixels(tally *t, const view_case *c, json_t *root) {
 TEST(pixels) {
     rng r = rng_make("matrix pixels");
     tally t = {.name = "pixels of matrices"};
+    uint64_t ranged = 0;
     char list[ALL * 4 + 1] = "";
     for (int i = 0; i < ALL; i++)
         snprintf(list + strlen(list), sizeof list - strlen(list), "%s%d,%d", i > 0 ? ";" : "", i % ACROSS, i / ACROSS);
     for (uint64_t n = test_cases(10, 150, 2000); n > 0; n--) {
         view_case c;
         char arguments[4096];
-        make_case(&r, &c);
-        snprintf(arguments, sizeof arguments, "texture '%s' -q --sky 0 --matrix '%s' -F %s -m %s --pixel '%s'", c.shot,
-                 c.path, c.format.name, c.mapping, list);
+        make_ranged(&r, &c);
+        snprintf(arguments, sizeof arguments,
+                 "texture '%s' -q --sky 0 --matrix '%s' -F %s -m %s --depth-range %.17g:%.17g --pixel '%s'", c.shot,
+                 c.path, c.format.name, c.mapping, c.range[0], c.range[1], list);
+        ranged += is_ranged(&c);
         char *out = output_of(0, arguments, "--json");
         json_t *root = json_of(out);
         judge_pixels(&t, &c, root);
@@ -280,6 +314,7 @@ TEST(pixels) {
         free(out);
     }
     assert_true(t.skipped < t.cases / 10);
+    assert_true(ranged > 0);
     tally_end(&t);
 }
 
@@ -289,8 +324,8 @@ static image numbers_of(const view_case *c, const char *product) {
     image_error error;
     image out;
     const char *path = scratch_file("product.npy");
-    printed p = print_of("texture '%s' -q --sky 0 --matrix '%s' -F %s -m %s %s -o '%s'", c->shot, c->path,
-                         c->format.name, c->mapping, product, path);
+    printed p = print_of("texture '%s' -q --sky 0 --matrix '%s' -F %s -m %s --depth-range %.17g:%.17g %s -o '%s'",
+                         c->shot, c->path, c->format.name, c->mapping, c->range[0], c->range[1], product, path);
     if (p.status != 0)
         fail_msg("%s: %s", product, p.errors);
     printed_free(&p);
@@ -345,7 +380,7 @@ TEST(products) {
     tally t = {.name = "products of matrices"};
     for (uint64_t n = test_cases(5, 60, 500); n > 0; n--) {
         view_case c;
-        make_case(&r, &c);
+        make_ranged(&r, &c);
         judge_products(&t, &c);
     }
     tally_end(&t);
