@@ -184,10 +184,9 @@ DP_INLINE double perspective_exact(const dp_setup *setup, decode_quantity quanti
     return above / below;
 }
 
-/* Of a depth that a viewport has moved. */
-static double moved_exact(const dp_setup *setup, decode_quantity quantity, double d) {
-    const double n = setup->spec.znear, f = setup->spec.zfar, z = dp_eye(setup, d, 1 - d);
-    return quantity == DECODE_EYE ? z : quantity == DECODE_01 ? z / f : isinf(f) ? 0 : (z - n) / (f - n);
+/* How far d has come from one end of the depth range to the other, a share; beyond an end it is that end. */
+static double share_from(const dp_setup *setup, int end, double d) {
+    return fmin(fmax((d - setup->ends[end]) / (setup->ends[1 - end] - setup->ends[end]), 0), 1);
 }
 
 double decode_exact(const dp_setup *setup, decode_quantity quantity, double d) {
@@ -195,9 +194,12 @@ double decode_exact(const dp_setup *setup, decode_quantity quantity, double d) {
     const double rest = 1 - d, lost = (1 - rest) - d; /* 1 - d = rest + lost, for d in [0, 1] */
     const bool r = setup->reversed != 0, infinite = isinf(f);
     /* the shares of the near and of the far end: 1/z = near/n + far/f */
-    const double near_hi = r ? d : rest, near_lo = r ? 0 : lost, far_hi = r ? rest : d, far_lo = r ? lost : 0;
-    if (setup->ranged)
-        return moved_exact(setup, quantity, d);
+    double near_hi = r ? d : rest, near_lo = r ? 0 : lost, far_hi = r ? rest : d, far_lo = r ? lost : 0;
+    if (setup->ranged) {
+        near_hi = share_from(setup, 1, d);
+        far_hi = share_from(setup, 0, d);
+        near_lo = far_lo = 0;
+    }
     if (infinite && quantity != DECODE_EYE)
         return 0;
     if (setup->curve == DP_CURVE_LOG) {

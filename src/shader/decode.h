@@ -79,7 +79,7 @@ void decode_run(const decode_row *row, const dp_setup *setup, const float *d, fl
 
 /**
  * The quantity exactly, rounded to double: the reference. `d`, in [0, 1], is taken as it is, and so are the planes; of
- * a depth range, d is that of the window, and `decode_run()` knows none.
+ * a depth range d is that of the window, beyond an end that of the end, and `decode_run()` knows none.
  *
  * Bound: 2^-50 relative. In perspective all terms have one sign; else 1 - d is carried as an unevaluated sum of
  * two doubles, so nothing cancels at either end.

@@ -44,12 +44,29 @@ static double random_window(rng *r) {
     }
 }
 
+/* What d was before a viewport moved it into its depth range; beyond an end it is that. */
+static void undone(const dp_spec *s, double d, mpq_t t) {
+    mpq_t lo, by;
+    mpq_inits(lo, by, NULL);
+    mpq_set_d(lo, (double)(float)s->depth_range[0]);
+    mpq_set_d(by, s->depth_range[0] == s->depth_range[1] ? 1 : (double)(float)s->depth_range[1]); /* both 0: 0 and 1 */
+    mpq_sub(by, by, lo);
+    mpq_set_d(t, d);
+    mpq_sub(t, t, lo);
+    mpq_div(t, t, by);
+    if (mpq_sgn(t) < 0)
+        mpq_set_ui(t, 0, 1);
+    if (mpq_cmp_ui(t, 1, 1) > 0)
+        mpq_set_ui(t, 1, 1);
+    mpq_clears(lo, by, NULL);
+}
+
 /* z(d) of the mappings that are rational, from 1/z = q/n + d/f and its like, and the two shares. */
 static void rational(const dp_spec *s, double d, decode_quantity quantity, mpq_t out) {
     mpq_t n, f, t, q, x;
     mpq_inits(n, f, t, q, x, NULL);
     mpq_set_d(n, s->znear);
-    mpq_set_d(t, d);
+    undone(s, d, t);
     if (dp_mapping_get(s->mapping)->reversed) { /* t: share of the way to the far plane */
         mpq_set_ui(x, 1, 1);
         mpq_sub(t, x, t);
@@ -122,15 +139,24 @@ TEST(exact_is_exact) {
     mpq_init(want);
     double worst = 0;
     for (uint64_t k = test_cases(2000, 20000, 300000); k > 0; k--) {
-        const dp_spec spec = random_spec(&r);
-        const double d = random_window(&r);
+        dp_spec spec = random_spec(&r);
+        double d = random_window(&r);
         const decode_quantity quantity = (decode_quantity)rng_below(&r, DECODE_QUANTITIES);
         char text[512];
         dp_setup setup;
+        if (dp_mapping_get(spec.mapping)->curve == DP_CURVE_PERSPECTIVE && rng_below(&r, 2)) {
+            const bool outside = rng_below(&r, 8) == 0;
+            rng_range(&r, spec.depth_range);
+            d = outside ? d : spec.depth_range[0] + (spec.depth_range[1] - spec.depth_range[0]) * d;
+        }
         assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
         const double got = decode_exact(&setup, quantity, d);
         if (isinf(spec.zfar)) {
-            const double q = setup.reversed ? d : 1 - d;
+            mpq_t share;
+            mpq_init(share);
+            undone(&spec, d, share);
+            const double at = mpq_get_d(share), q = dp_mapping_get(spec.mapping)->reversed ? at : 1 - at;
+            mpq_clear(share);
             if (quantity != DECODE_EYE || q == 0) {
                 TALLY(&t, got == (quantity != DECODE_EYE ? 0 : INFINITY), "an infinite far plane");
                 continue;

@@ -37,9 +37,7 @@ static void *next_row(void *of, size_t i) {
         l->by_code ? (uint32_t)floor(asked + 0.5) : dp_format_encode(format, setup->spec.rounding, asked);
     r->depth = l->by_code ? dp_format_value(format, code) : asked;
     r->cell = dp_cell_of(setup, code);
-    r->z = l->by_code      ? r->cell.stored
-           : setup->ranged ? dp_eye(setup, asked, 1.0 - asked)
-                           : decode_exact(setup, DECODE_EYE, asked);
+    r->z = l->by_code ? r->cell.stored : decode_exact(setup, DECODE_EYE, asked);
     r->depth_digits = number_digits_within(r->depth, 1.0 - r->depth, DIGITS_DEPTH, DEPTH_MOST);
     r->cell_digits = number_digits_within(r->cell.lo, r->cell.width, DIGITS_CELL, DIGITS_MOST);
     l->empty = l->empty || r->cell.width == 0.0;
