@@ -224,13 +224,13 @@ static bool find_witness(const question *q, double lo, double hi, bias_verdict *
 }
 
 /* Where it turns from enough to not: the number, or the slope, at `field` is so much from the base. */
-static double turn_of(question *q, double *field, double base, double way, double fails, double holds) {
-    for (int i = 0; i < 80 && !(fabs(holds - fails) <= 0x1p-20 * holds); i++) {
-        const double x = 0.5 * holds + 0.5 * fails;
+static double turn_of(question *q, double *field, double base, double way, dp_edge e) {
+    e.apart = 0x1p-20;
+    for (double x; dp_edge_between(&e, &x);) {
         *field = base + way * x;
-        *(enough_over(q, q->lo, q->hi, HALVINGS) ? &holds : &fails) = x;
+        *(enough_over(q, q->lo, q->hi, HALVINGS) ? &e.holds : &e.fails) = x;
     }
-    return base + way * holds;
+    return base + way * e.holds;
 }
 
 /* The least number that is enough all over the range: NaN where none is. */
@@ -243,7 +243,7 @@ static double least_of(question q) {
         if (!(q.amount <= row->most && q.amount >= row->least))
             break;
         if (enough_over(&q, q.lo, q.hi, HALVINGS))
-            return turn_of(&q, &q.amount, base, way, 0.5 * more, more);
+            return turn_of(&q, &q.amount, base, way, (dp_edge){.holds = more, .fails = 0.5 * more});
     }
     return (double)NAN;
 }
@@ -264,7 +264,10 @@ bias_verdict remedy_judge(const dp_setup *setup, const remedy *row, double amoun
 
 double remedy_steepest(const dp_setup *setup, const remedy *row, double amount, double gap, double lo, double hi) {
     question q = {setup, row, amount, gap, 0.0, lo, hi};
-    return row->parallel || row->window == NULL || !enough_over(&q, lo, hi, HALVINGS)
-               ? (double)NAN
-               : turn_of(&q, &q.slope, 0.0, 1.0, 2.0 * hi, 0.0);
+    if (row->parallel || row->window == NULL || !enough_over(&q, lo, hi, HALVINGS))
+        return (double)NAN;
+    q.slope = 0x1p-60 * hi;
+    if (!enough_over(&q, lo, hi, HALVINGS))
+        return 0.0;
+    return turn_of(&q, &q.slope, 0.0, 1.0, (dp_edge){.holds = q.slope, .fails = 2.0 * hi});
 }

@@ -41,8 +41,8 @@ bias_effect remedy_at(const dp_setup *setup, const remedy *row, double amount, d
 bias_verdict remedy_judge(const dp_setup *setup, const remedy *row, double amount, const bias_goal *goal, double lo,
                           double hi);
 
-/** The greatest slope at which it is enough from lo to hi, within 2^-20 below; NaN where it is not enough facing the
- * camera, stays parallel, or compares no depth. */
+/** The greatest slope at which it is enough from lo to hi, within 2^-20 below, 0 where that is less than 2^-60 hi; NaN
+ * where it is not enough facing the camera, stays parallel, or compares no depth. */
 double remedy_steepest(const dp_setup *setup, const remedy *row, double amount, double gap, double lo, double hi);
 
 /** The most that it brings a layer nearer. */

@@ -6,18 +6,15 @@
 
 #include "convert/convert.h"
 #include "core/bits.h"
+#include "core/engine.h"
 
 enum { PARTS = 64 };
 static const uint32_t most_codes = 1U << 24, bits_of_one = 0x3F800000U;
 
 /* ---- Copies ------------------------------------------------------------------------------------------------------ */
 
-static bool is_fp32(const dp_format *f) {
-    return f->kind == DP_FORMAT_FLOAT && f->exponent_bits == 8 && f->mantissa_bits == 23 && f->bias == 127;
-}
-
 bool again_fits(const dp_format *stored) {
-    return is_fp32(stored) || stored->code_max < most_codes;
+    return dp_format_is_fp32(stored) || stored->code_max < most_codes;
 }
 
 /* Whether the number of a code of the pass is above c/m, exactly: the product of a float by m is two doubles. */
@@ -147,7 +144,7 @@ static void add(const dp_format *drawn, again_found *to, const again_found *more
 }
 
 again_found again_all(const again_request *q) {
-    if (is_fp32(&q->stored))
+    if (dp_format_is_fp32(&q->stored))
         return (again_found){.codes = (uint64_t)dp_bits32(q->hi) - dp_bits32(q->lo) + 1, .most_at = (double)NAN};
     const uint32_t first = code_of(q, &q->stored, dp_bits32(q->lo));
     const uint64_t codes = (uint64_t)code_of(q, &q->stored, dp_bits32(q->hi)) - first + 1;

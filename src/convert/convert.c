@@ -6,6 +6,7 @@
 #include <omp.h>
 
 #include "core/bits.h"
+#include "core/engine.h"
 
 /* ---- Ways -------------------------------------------------------------------------------------------------------- */
 
@@ -75,10 +76,6 @@ static int compare(quotient p, quotient q) {
     return (low > 0) - (low < 0);
 }
 
-static bool is_fp32(const dp_format *f) {
-    return f->kind == DP_FORMAT_FLOAT && f->exponent_bits == 8 && f->mantissa_bits == 23 && f->bias == 127;
-}
-
 static double factor_of(const convert_rule *rule, const dp_format *f) {
     return rule->factor > 0 ? rule->factor : (double)f->code_max;
 }
@@ -116,7 +113,7 @@ static uint32_t nearest_code(const dp_format *f, quotient d) {
         return dp_format_encode(f, DP_ROUND_NEAREST, d.num);
     /* A quotient that is rounded twice goes wrong only where the first gave the middle between two floats. */
     const double once = d.num / d.den;
-    if (is_fp32(f) && (dp_bits64(once) & 0x1FFFFFFFU) != 0x10000000U)
+    if (dp_format_is_fp32(f) && (dp_bits64(once) & 0x1FFFFFFFU) != 0x10000000U)
         return dp_bits32((float)once);
     const uint32_t code = code_below(f, d);
     if (code == f->code_max)
@@ -147,7 +144,7 @@ static uint32_t write_code(const convert_chain *chain, const dp_format *f, quoti
     const bool computed = f->kind == DP_FORMAT_UNORM && way->write != NULL;
     if (computed)
         return fit_code(chain, f, way->write(binary32_of(d), (float)factor_of(&chain->write, f)), beyond);
-    const uint32_t code = way->cuts && !is_fp32(f) ? code_below(f, d) : nearest_code(f, d);
+    const uint32_t code = way->cuts && !dp_format_is_fp32(f) ? code_below(f, d) : nearest_code(f, d);
     return chain->flush && is_subnormal(f, code) ? 0 : code;
 }
 

@@ -23,6 +23,11 @@ uint32_t dp_code_quick(const dp_setup *setup, double z, int *certain);
 /* d(z) as dp_window() computes it is within 6 units of 2^-53; this leaves room for the product with a scale. */
 #define DP_WINDOW_ERROR 0x1p-49
 
+/* Whether a code of the format is the bits of its window depth as a binary32 number. */
+static inline int dp_format_is_fp32(const dp_format *f) {
+    return f->kind == DP_FORMAT_FLOAT && f->exponent_bits == 8 && f->mantissa_bits == 23 && f->bias == 127;
+}
+
 /* Fills in what dp_pipeline_init() takes from a set-up whose mapping has a pipeline. */
 void dp_pipeline_prepare(dp_setup *setup);
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/elementary.h"
+#include "core/engine.h"
 #include "raster/model.h"
 
 enum { FINEST = 8 };
@@ -97,8 +98,7 @@ raster_status draw_class_set_up(const draw_camera *camera, const double place[3]
 
 void draw_class_convert(const draw_camera *camera, const float *depth, int count, uint32_t *code) {
     const dp_format *format = &camera->setup.spec.format;
-    const bool as_it_is =
-        is_affine(camera) && format->kind == DP_FORMAT_FLOAT && format->bits == 31 && format->bias == 127;
+    const bool as_it_is = is_affine(camera) && dp_format_is_fp32(format);
     for (int i = 0; i < count && !as_it_is; i++)
         code[i] = code_of(camera, depth[i]);
     if (as_it_is)

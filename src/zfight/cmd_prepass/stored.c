@@ -48,7 +48,7 @@ typedef struct stored {
 /* ---- What is found ----------------------------------------------------------------------------------------------- */
 
 static double window_at(const dp_setup *setup, double z) {
-    return isinf(z) ? (setup->reversed ? 0 : 1) : fmin(fmax(dp_window(setup, z), 0), 1);
+    return isinf(z) ? setup->ends[1] : fmin(fmax(dp_window(setup, z), 0), 1);
 }
 
 static void find_format(const stored *a, const dp_setup *setup, const stored_case *one, line *l) {
