@@ -1,33 +1,29 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "camera/depth_range.h"
 
-#include <math.h>
+#include "core/engine.h"
 
-bool camera_range_moves(const double range[2]) {
-    return range[0] != 0.0 || (range[1] != 0.0 && range[1] != 1.0);
-}
-
-/* 0, or so large that binary32 has many numbers there. */
-static bool is_end(double d) {
-    return d == 0.0 || (d >= 1e-6 && d <= 1.0);
-}
+#define TEXT(number)    #number
+#define TEXT_OF(number) TEXT(number)
+#define LEAST           TEXT_OF(DP_RANGE_LEAST)
 
 bool camera_range_takes(const char *api, const double range[2], camera_fault *fault) {
-    if (!camera_range_moves(range))
-        return true;
-    if (is_end(range[0]) && is_end(range[1]) && fabs(range[1] - range[0]) >= 1e-6)
+    char lo[CAMERA_NUMBER_SIZE], hi[CAMERA_NUMBER_SIZE];
+    if (dp_range_fits(range))
         return camera_range_suits(api != NULL ? bias_api_find(api) : NULL, range, fault);
     return camera_fails(fault, "depth_range",
-                        "must be two window depths, each 0 or from 1e-6 to 1, and at least 1e-6 apart, got %g and %g",
-                        range[0], range[1]);
+                        "must be two window depths, each 0 or from " LEAST " to 1, and at least " LEAST
+                        " apart, got %s and %s",
+                        camera_number(range[0], lo), camera_number(range[1], hi));
 }
 
 bool camera_range_suits(const bias_api *api, const double range[2], camera_fault *fault) {
+    char lo[CAMERA_NUMBER_SIZE], hi[CAMERA_NUMBER_SIZE];
     return api == NULL || !api->rising || range[0] <= range[1] ||
            camera_fails(fault, "depth_range",
-                        "must not fall in %s, got %g and %g: a reversed mapping turns depth, too; gl, vulkan and metal "
+                        "must not fall in %s, got %s and %s: a reversed mapping turns depth, too; gl, vulkan and metal "
                         "let it",
-                        api->name, range[0], range[1]);
+                        api->name, camera_number(range[0], lo), camera_number(range[1], hi));
 }
 
 bool camera_range_refused(const dp_spec *spec, dp_status status, camera_fault *fault) {

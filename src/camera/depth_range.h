@@ -11,9 +11,6 @@
 #include "bias/bias.h"
 #include "camera/rules.h"
 
-/** Whether window depths are not those from 0 to 1. */
-bool camera_range_moves(const double range[2]);
-
 /** Whether its ends are what viewports take, and those of an API, null where none is known. */
 bool camera_range_takes(const char *api, const double range[2], camera_fault *fault);
 

@@ -24,11 +24,10 @@ const char *camera_fault_text(const camera_fault *fault, const char *mark, char 
     return out;
 }
 
-/* The fewest digits from 15 on that are read as the same number. */
-static const char *shortest(double value, char out[32]) {
+const char *camera_number(double value, char out[CAMERA_NUMBER_SIZE]) {
     int digits = 14;
     do
-        snprintf(out, 32, "%.*g", ++digits, value);
+        snprintf(out, CAMERA_NUMBER_SIZE, "%.*g", ++digits, value);
     while (digits < 17 && strtod(out, NULL) != value);
     return out;
 }
@@ -44,7 +43,7 @@ static const char *const keys[DP_STATUS_COUNT] = {
 bool camera_refused(const dp_spec *spec, dp_status status, const char *aside, camera_fault *fault) {
     const char *key = keys[status] != NULL ? keys[status] : "far", *text = dp_status_text(status);
     const char *mapping = dp_mapping_get(spec->mapping)->name;
-    char znear[32], zfar[32];
+    char znear[CAMERA_NUMBER_SIZE], zfar[CAMERA_NUMBER_SIZE];
     if (status == DP_ERROR_MODEL) /* of the models that have a name, float alone is not for all */
         return camera_fails(
             fault, key,
@@ -56,9 +55,9 @@ bool camera_refused(const dp_spec *spec, dp_status status, const char *aside, ca
     if (status == DP_ERROR_INFINITE || status == DP_ERROR_ORTHO)
         return camera_fails(fault, key, "%s, got %s, %s", text, spec->ortho ? "orthographic" : "perspective", mapping);
     if (status == DP_ERROR_LOG_C)
-        return camera_fails(fault, key, "%s, got %s", text, shortest(spec->log_c, znear));
-    return camera_fails(fault, key, "%s, got near %s, far %s", text, shortest(spec->znear, znear),
-                        shortest(spec->zfar, zfar));
+        return camera_fails(fault, key, "%s, got %s", text, camera_number(spec->log_c, znear));
+    return camera_fails(fault, key, "%s, got near %s, far %s", text, camera_number(spec->znear, znear),
+                        camera_number(spec->zfar, zfar));
 }
 
 bool camera_vertical(double fov_x, int width, int height, double *fov_y, camera_fault *fault) {

@@ -19,7 +19,7 @@
 #define CAMERA_NEAR_MOST  1e12
 enum { CAMERA_SIDE_MOST = 32768, CAMERA_SUBPIXEL_MOST = 8 }; /**< pixels of a side; bits */
 
-enum { CAMERA_FAULT_SIZE = 512 };
+enum { CAMERA_FAULT_SIZE = 512, CAMERA_NUMBER_SIZE = 32 };
 
 typedef struct camera_fault {
     const char *key;              /**< as requirement files write it: "log_c" */
@@ -32,6 +32,9 @@ bool camera_fails(camera_fault *fault, const char *key, const char *format, ...)
 
 /** Its text with `mark`, "--" or nothing, in place of each @. @return out */
 const char *camera_fault_text(const camera_fault *fault, const char *mark, char out[CAMERA_FAULT_SIZE]);
+
+/** A number in the fewest digits, from 15 on, that are read as the same. @return out */
+const char *camera_number(double value, char out[CAMERA_NUMBER_SIZE]);
 
 /** Why dp_setup_init() refused a specification; `aside` is said of leaving out a model, or "". @return false */
 bool camera_refused(const dp_spec *spec, dp_status status, const char *aside, camera_fault *fault);

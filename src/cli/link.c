@@ -9,6 +9,7 @@
 
 #include "cli/shell_word.h"
 #include "core/append.h"
+#include "system/input.h"
 
 /* The figures that the page has. */
 static const name_list figures = {
@@ -61,9 +62,12 @@ int link_write(const asked_line *line) {
     if (line->command->part_get != NULL && !names_find(&figures, line->operands[0], NULL, &found))
         return option_error("link", "must be of a figure that the page has, %s, got '%s'",
                             names_join(&figures, ", ", " or ", text), line->operands[0]);
-    if (option_given(line, "at") && option_text(line, "at")[0] == '@')
-        return option_error("link", "holds no file, which the page could not read: write out the depths of --at %s",
-                            option_text(line, "at"));
+    for (size_t i = 0; i < line->given_count; i++) {
+        const char *name = line->given[i].name, *value = line->given[i].text;
+        if (value != NULL && ((strcmp(name, "at") == 0 && value[0] == '@') || input_is_read(value)))
+            return option_error("link", "holds no file, which the page could not read: write out what is in --%s %s",
+                                name, value);
+    }
     command_words(line, text);
     if (encode(text + 1, fragment) == 0)
         return option_error("link", "holds at most %d characters of UTF-8 without control characters", FRAGMENT_MAX);

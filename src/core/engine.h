@@ -28,6 +28,12 @@ static inline int dp_format_is_fp32(const dp_format *f) {
     return f->kind == DP_FORMAT_FLOAT && f->exponent_bits == 8 && f->mantissa_bits == 23 && f->bias == 127;
 }
 
+/* Whether a viewport of that depth range moves depth, and whether a set-up may have it: ends of 0, or so large that
+ * binary32 has many numbers there, and so far apart. */
+#define DP_RANGE_LEAST 1e-6
+int dp_range_moves(const double range[2]);
+int dp_range_fits(const double range[2]);
+
 /* Fills in what dp_pipeline_init() takes from a set-up whose mapping has a pipeline. */
 void dp_pipeline_prepare(dp_setup *setup);
 

@@ -49,14 +49,21 @@ static int far_is_held(const dp_spec *spec, const dp_mapping_row *row) {
     return spec->zfar <= 1e18 || (spec->zfar <= 1e28 && spec->znear * spec->zfar <= 1e30 && by * spec->zfar <= 1e30);
 }
 
-/* Whether a viewport moves depth. */
-static int has_range(const double range[2]) {
-    return (range[0] != 0.0 || range[1] != 1.0) && (range[0] != 0.0 || range[1] != 0.0);
+int dp_range_moves(const double range[2]) {
+    return range[0] != 0.0 || (range[1] != 0.0 && range[1] != 1.0);
+}
+
+static int is_end(double d) {
+    return d == 0.0 || within(d, DP_RANGE_LEAST, 1.0);
+}
+
+int dp_range_fits(const double range[2]) {
+    return !dp_range_moves(range) ||
+           (is_end(range[0]) && is_end(range[1]) && fabs(range[1] - range[0]) >= DP_RANGE_LEAST);
 }
 
 static int range_is_sound(const double range[2], const dp_mapping_row *row) {
-    const int ends = within(range[0], 1e-6, 1.0) + (range[0] == 0.0) + within(range[1], 1e-6, 1.0) + (range[1] == 0.0);
-    return !has_range(range) || (ends == 2 && fabs(range[1] - range[0]) >= 1e-6 && row->curve == DP_CURVE_PERSPECTIVE);
+    return !dp_range_moves(range) || (dp_range_fits(range) && row->curve == DP_CURVE_PERSPECTIVE);
 }
 
 static dp_status check(const dp_spec *spec) {
@@ -85,7 +92,7 @@ static dp_status check(const dp_spec *spec) {
         {spec->model != DP_MODEL_FLOAT || row->curve == DP_CURVE_PERSPECTIVE, DP_ERROR_MODEL},
         {row->curve != DP_CURVE_LOG || row->log_over_near || within(spec->log_c, 1e-12, 1e12), DP_ERROR_LOG_C},
         {range_is_sound(spec->depth_range, row), DP_ERROR_WINDOW},
-        {spec->model != DP_MODEL_STAGED || !has_range(spec->depth_range), DP_ERROR_MODEL},
+        {spec->model != DP_MODEL_STAGED || !dp_range_moves(spec->depth_range), DP_ERROR_MODEL},
         {spec->triangles.width == 0 || (!spec->ortho && dp_triangles_check(&spec->triangles) == DP_OK),
          DP_ERROR_TRIANGLES},
     };
@@ -114,7 +121,7 @@ dp_setup dp_setup_guaranteed(const dp_setup *setup) {
 /* The ends of the window depths, exactly: binary32 numbers of which none is small. */
 static void set_range(dp_setup *setup, const dp_mapping_row *row) {
     double *range = setup->spec.depth_range;
-    setup->ranged = has_range(range);
+    setup->ranged = dp_range_moves(range);
     range[1] = setup->ranged ? range[1] : 1.0;
     for (int i = 0; i < 2; i++)
         setup->ends[i] = (double)(float)(range[row->reversed ? 1 - i : i] + 0.0); /* -0 is 0 */

@@ -129,11 +129,6 @@ bool setup_repeats(const setups *all, size_t i) {
     return false;
 }
 
-bool camera_range_moves(const double range[2]) {
-    (void)range;
-    return false;
-}
-
 bool camera_range_takes(const char *api, const double range[2], camera_fault *fault) {
     (void)api;
     return camera_range_suits(NULL, range, fault);

@@ -453,6 +453,7 @@ TEST(test_refusals) {
 TEST(test_digits_of_planes) {
     check_says(2, "got near 0.30000000000000004, far 0.3\n", "table -n 0.30000000000000004 -f 0.3");
     check_says(2, "got near 0.3, far 0.3\n", "table -n 0.3 -f 0.3");
+    check_says(2, "got 0.99999951 and 1\n", "table --depth-range 0.99999951:1");
 }
 
 /* A range needs two binary32 depths in it: those between the middles of their neighbours, none, one or two. */

@@ -5,6 +5,7 @@
 
 #include "camera/cmd/setups.h"
 #include "camera/depth_range.h"
+#include "core/engine.h"
 
 /* Of either order; camera_make() and range_complete() say what viewports take. */
 static int add_depth_range(asked_line *line, const option_row *row, const char *value, void *group) {
@@ -54,7 +55,7 @@ const column setup_end_columns[] = {
 _Static_assert(sizeof(setup_depths) == sizeof((dp_spec *)0)->depth_range, "both are two numbers");
 
 const setup_depths *setup_ends(const dp_spec *spec) {
-    return camera_range_moves(spec->depth_range) ? (const setup_depths *)(const void *)spec->depth_range : NULL;
+    return dp_range_moves(spec->depth_range) ? (const setup_depths *)(const void *)spec->depth_range : NULL;
 }
 
 const char *setup_range(const setup_fields *f, char out[SETUP_RANGE_SIZE]) {

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "camera/cmd/raster_setups.h"
-#include "camera/depth_range.h"
 #include "camera/unit.h"
 #include "cli/list.h"
 #include "core/append.h"
@@ -305,7 +304,7 @@ static int resolve_setups(plotting *p) {
     choose_setups(&in_model, p->row);
     if ((p->row->takes & FIGURE_BINARY32) != 0)
         in_model.camera.model = DP_MODEL_FLOAT;
-    const bool staged = (p->row->takes & FIGURE_STAGED) != 0 && !camera_range_moves(in_model.camera.depth_range);
+    const bool staged = (p->row->takes & FIGURE_STAGED) != 0 && !dp_range_moves(in_model.camera.depth_range);
     for (size_t i = 0; staged && i < in_model.camera.mapping_count; i++)
         if (!option_given(p->o->line, "model") && dp_mapping_get(in_model.camera.mappings[i])->ndc_signed)
             in_model.camera.model = DP_MODEL_STAGED;

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "camera/depth_range.h"
+#include "core/engine.h"
 #include "report/message.h"
 #include "report/number.h"
 #include "texture/cmd_texture/request.h"
@@ -261,7 +261,7 @@ int texture_image_read(texture_request *o, texture_source *s) {
     if (o->image.metric > 0)
         return o->image.stereo.focal > 0 ? read_stereo(o, s) : read_metric(o, s);
     recognise(&s->picture, &s->found, s->why);
-    if (camera_range_moves(o->camera.depth_range))
+    if (dp_range_moves(o->camera.depth_range))
         leave_direction(s);
     return EXIT_FINE;
 }

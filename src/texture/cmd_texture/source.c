@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "camera/cmd/setups.h"
-#include "camera/depth_range.h"
 #include "cli/option/names.h"
+#include "core/engine.h"
 #include "report/number.h"
 #include "texture/cmd_texture/request.h"
 #include "texture/cmd_texture/texture.h"
@@ -138,7 +138,7 @@ static int choose_mapping(const texture_request *o, texture_source *s, dp_mappin
     }
     if (given && o->camera.mapping_count > 1)
         return option_error("mapping", "must be one mapping, got %zu", o->camera.mapping_count);
-    if (!given && s->path != NULL && camera_range_moves(o->camera.depth_range))
+    if (!given && s->path != NULL && dp_range_moves(o->camera.depth_range))
         return option_error("mapping", "must be given with --depth-range: what an image shows of it is of 0 to 1");
     /* Nothing in an image tells the curve; what is usual in perspective pictures tells nothing of orthographic ones. */
     const bool told = s->path != NULL && s->found.reversed >= 0 && !o->camera.ortho;
