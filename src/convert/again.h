@@ -35,7 +35,7 @@ typedef struct again_found {
     uint64_t fails;   /**< those of which some depth fails the test */
     uint32_t most;    /**< codes of the pass from a depth to its copy, at most */
     double most_at;   /**< a window depth that differs so; NaN where none does */
-    /** What the pass must be moved towards the camera by so that the test holds of all: the sum of a depth and that
+    /** The pass must be moved towards the camera by so much that the test holds of all: the sum of a depth and that
      * bias is a binary32 number. 0 where it holds. */
     again_gap widest;
     again_gap steepest; /**< that with the greatest bias in units of 2^e, e the exponent of its depth in the format */

@@ -18,8 +18,8 @@
 #define POINTS_PER_PX 0.75
 #define FONT_FAMILY   "DejaVu Sans"
 
-/* The functions of the library that are called. It is opened when a figure is drawn: it and the twenty that it needs
- * take longer to load than a table takes to be made. */
+/* The functions of the library that are called. It is opened when a figure is drawn: with it come a dozen others, whose
+ * loading a table would wait for in vain. */
 #define FUNCTIONS(X)                                                                                                   \
     X(cairo_arc)                                                                                                       \
     X(cairo_clip)                                                                                                      \

@@ -59,7 +59,7 @@ typedef struct bound_walk {
     steps constants, steps;
     bound_known known[2 * STEPS_MAX + 1]; /**< the constants, d and the steps */
 } bound_walk;
-/** What constants are formed of; the ends of a depth range are those that binary32 has. */
+/** The numbers that form constants; the ends of a depth range are those that binary32 has. */
 steps_given bound_given(const dp_setup *setup);
 void bound_begin(const bound_steps *row, const dp_setup *setup, const bound_arithmetic *how, bound_walk *w);
 term bound_run(bound_walk *w, const bound_piece *p); /**< the eye depth throughout the piece */

@@ -197,7 +197,7 @@ static bool take_shot(context *g, shot *s) {
     g->glClear(GL_DEPTH_BUFFER_BIT);
     (s->constant != 0.0F || s->slope != 0.0F ? g->glEnable : g->glDisable)(GL_POLYGON_OFFSET_FILL);
     g->glPolygonOffset(s->slope, s->constant);
-    g->glDepthRange((double)s->range[0], s->range[0] != s->range[1] ? (double)s->range[1] : 1.0);
+    g->glDepthRange((double)s->range[0], (double)shot_range_end(s));
     if (!draw(g, s, false))
         return false;
     if (s->again) {

@@ -56,6 +56,11 @@ typedef struct shot {
         *code; /**< SHOT_PIXELS, row 0 at clip y = -1; fp32 as its bits. A pixel that is not drawn has SHOT_CLEAR */
 } shot;
 
+/** The upper end of the viewport's depths, of either order. */
+static inline float shot_range_end(const shot *s) {
+    return s->range[0] != s->range[1] ? s->range[1] : 1.0F;
+}
+
 typedef struct shot_plan {
     size_t count;
     shot *shot;

@@ -316,8 +316,7 @@ static bool make_pipeline(gpu *g, const shot *s, bool second, VkPipeline *out) {
     const VkPipelineInputAssemblyStateCreateInfo assembly = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
         .topology = s->triangles ? VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST : VK_PRIMITIVE_TOPOLOGY_POINT_LIST};
-    const bool ranged = s->range[0] != s->range[1];
-    const VkViewport view = {0.0F, 0.0F, SHOT_SIZE, SHOT_SIZE, s->range[0], ranged ? s->range[1] : 1.0F};
+    const VkViewport view = {0.0F, 0.0F, SHOT_SIZE, SHOT_SIZE, s->range[0], shot_range_end(s)};
     const VkRect2D all = {{0, 0}, {SHOT_SIZE, SHOT_SIZE}};
     const VkPipelineViewportStateCreateInfo viewport = {.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
                                                         .viewportCount = 1,

@@ -45,7 +45,7 @@ typedef struct resolve_place {
  */
 resolve_place resolve_at(int count, bool halved, int index);
 
-/** What a case asks for. */
+/** The bias that a case asks for. */
 typedef struct resolve_need {
     double pixels; /**< F: a bias of F m is needed for the slope, m the slope of the API; 0 where it costs nothing */
     double window; /**< and this besides, of window depth */

@@ -76,12 +76,11 @@ static double length_of(shadow_measure in, const shadow_light *light, const grou
                                                                            : 0.0;
 }
 
-/* Window depth of a length along the ray to the light: the least of all rays, and on the axis. */
-static void along_ray(const shadow_light *light, const ground *g, double length, shadow_given *out) {
+/* Window depth of a length along the axis to the light. */
+static double along_axis(const shadow_light *light, const ground *g, double length) {
     const bool depth = light->kind != SHADOW_SUN && !shadow_holds_distance(light);
     const double z = g->z, left = z - length;
-    out->window_least += length / g->depth * (depth ? dp_cos(g->corner) : 1.0);
-    out->rest_most += !depth ? length / g->depth : left > 0.0 ? length * z / left / g->depth : (double)INFINITY;
+    return !depth ? length / g->depth : left > 0.0 ? length * z / left / g->depth : (double)INFINITY;
 }
 
 /* A length along the ray that its bias is, where the ground is; 0 of one in window depth or units. */
@@ -91,7 +90,7 @@ static double ray_of(const shadow_engine *engine, const shadow_light *light, con
     return value * length_of(engine->bias_in[light->kind], light, g);
 }
 
-/* What is given of the depth of a point is least at an end of the range. */
+/* The share of the depth of a point that is given is least at an end of the range. */
 static void share(const shadow_engine *engine, const shadow_light *light, double value, double normal,
                   shadow_given *out) {
     const bool sun = light->kind == SHADOW_SUN;
@@ -117,8 +116,7 @@ shadow_given shadow_engine_gives(const shadow_engine *engine, const shadow_light
     const bias_unit low = bias_unit_at(api, &setup->spec.format, fmin(lo, hi));
     const bias_unit high = bias_unit_at(api, &setup->spec.format, fmax(lo, hi));
     const double units = shadow_holds_distance(light) ? 0.0 : engine->units + (counted ? value : 0.0);
-    shadow_given given = {.window_least = units * low.least,
-                          .units = units,
+    shadow_given given = {.units = units,
                           .api = api,
                           .factor = shadow_holds_distance(light) ? 0.0 : engine->factor + (counted ? value : 0.0),
                           .offset =
@@ -126,19 +124,14 @@ shadow_given shadow_engine_gives(const shadow_engine *engine, const shadow_light
                           .growth = engine->growth[kind]};
     const bool leans = engine->normal_in[kind] == SHADOW_IN_SHARES && !shadow_holds_distance(light);
     given.offset_most = given.offset / (leans ? dp_cos(g.corner) : 1.0); /* the distance of a point in the corner */
-    if (engine->bias_in[kind] == SHADOW_IN_CLIP && !shadow_holds_distance(light)) {
-        given.window_least += value * setup->spec.zfar * dp_cos(g.corner) / (g.z * g.z);
-        given.rest_most += value * setup->spec.zfar / (g.z * g.z);
-    } else if (engine->bias_in[kind] == SHADOW_IN_WINDOW) {
-        given.window_least += value;
-        given.rest_most += value;
-    } else {
-        along_ray(light, &g, value * length_of(engine->bias_in[kind], light, &g), &given);
-    }
     given.added = engine->bias_in[kind] == SHADOW_IN_WINDOW ? value : 0.0;
     given.level = units * low.least + given.added;
     share(engine, light, value, normal * engine->normal_scale[kind] * by, &given);
-    given.window_most = given.rest_most + units * (isfinite(high.most) ? high.most : high.least);
+    given.window_most = given.added + units * (isfinite(high.most) ? high.most : high.least);
+    if (engine->bias_in[kind] == SHADOW_IN_CLIP && !shadow_holds_distance(light))
+        given.window_most += value * setup->spec.zfar / (g.z * g.z);
+    else
+        given.window_most += along_axis(light, &g, value * length_of(engine->bias_in[kind], light, &g));
     return given;
 }
 
@@ -230,27 +223,40 @@ static double acne_from(const shadow_light *light, const ground *g, const shadow
     return (double)NAN;
 }
 
+static balance balance_of(const shadow_light *light, const shadow_given *given, const shadow_need *need) {
+    const ground near = shadow_ground_at(light, light->receiver_lo), far = shadow_ground_at(light, light->receiver_hi);
+    /* The slope of a texel is at least what makes 1 of the factor worth so many texels on each axis. */
+    const shadow_bias *slope = &need->bias[SHADOW_SLOPE];
+    const double worth = slope->factor > 0.0 && isfinite(slope->factor) ? need->texels / slope->factor : 0.0;
+    const bool covered = given->factor >= slope->factor;
+    const double rest = given->factor > 0.0 ? slope->window : need->window;
+    const bool placed = light->kind != SHADOW_SUN;
+    const double other = placed ? far.z : 1.0, first = near.depth / (placed ? near.z : 1.0), last = far.depth / other;
+    return (balance){.across = covered ? 0.0 : fmax(need->texels - given->factor * worth, 0.0) * far.diagonal / other,
+                     .along = (given->level - rest) * (given->level > rest ? fmin(first, last) : fmax(first, last)),
+                     .ray = given->ray_share,
+                     .offset = given->offset_share,
+                     .corner = !placed || shadow_holds_distance(light)
+                                   ? 0.0
+                                   : near.corner + need->texels * near.pitch, /* lookups leave a face */
+                     .growth = given->growth};
+}
+
+double shadow_lacking(const shadow_light *light, const shadow_given *given, double angle) {
+    shadow_need need;
+    shadow_need_of(light, &need);
+    const balance b = balance_of(light, given, &need);
+    const double slant = shadow_radians(angle);
+    return lacks(&b, slant, slant) / dp_cos(slant) * (light->kind == SHADOW_SUN ? 1.0 : light->receiver_hi);
+}
+
 shadow_verdict shadow_judge(const shadow_light *light, const shadow_given *given) {
     const ground near = shadow_ground_at(light, light->receiver_lo), far = shadow_ground_at(light, light->receiver_hi);
     const double most = light->triangles.slant_hi;
+    const bool placed = light->kind != SHADOW_SUN;
     shadow_need need;
     shadow_need_of(light, &need);
-    /* The slope of a texel is at least what makes 1 of the factor worth so many texels on each axis. */
-    const double worth = need.bias[SHADOW_SLOPE].factor > 0.0 && isfinite(need.bias[SHADOW_SLOPE].factor)
-                             ? need.texels / need.bias[SHADOW_SLOPE].factor
-                             : 0.0;
-    const bool covered = given->factor >= need.bias[SHADOW_SLOPE].factor;
-    const double rest = given->factor > 0.0 ? need.bias[SHADOW_SLOPE].window : need.window;
-    const bool placed = light->kind != SHADOW_SUN;
-    const double other = placed ? far.z : 1.0, first = near.depth / (placed ? near.z : 1.0), last = far.depth / other;
-    const balance b = {.across = covered ? 0.0 : fmax(need.texels - given->factor * worth, 0.0) * far.diagonal / other,
-                       .along = (given->level - rest) * (given->level > rest ? fmin(first, last) : fmax(first, last)),
-                       .ray = given->ray_share,
-                       .offset = given->offset_share,
-                       .corner = !placed || shadow_holds_distance(light)
-                                     ? 0.0
-                                     : near.corner + need.texels * near.pitch, /* lookups leave a face */
-                       .growth = given->growth};
+    const balance b = balance_of(light, given, &need);
     shadow_verdict v = {.free = free_up_to(&b, most), .acne = acne_from(light, &near, &need, given)};
     const double turned = grown(given->growth, shadow_radians(most));
     const bool sines = light->kind == SHADOW_SUN || shadow_holds_distance(light);

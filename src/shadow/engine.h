@@ -50,18 +50,17 @@ NAMED_ROWS(shadow_engine, shadow_engine);
 
 /** What an engine's two numbers do at one depth. */
 typedef struct shadow_given {
-    double window_least, window_most; /**< along the ray, window depth: where a ray leans most, and on the axis */
+    double window_most; /**< along the ray on the axis, window depth */
     double factor;
-    double offset;      /**< along the normal at 90 degrees, or at any angle, scene units; where that is least */
-    double offset_most; /**< and where it is most */
-    double units;       /**< of the API, which are part of both window depths; their worth is that of receivers there */
-    double rest_most;   /**< window_most without them */
-    double level;       /**< of window_least what is the same along all rays */
-    double ray_share;   /**< the rest, a length along the ray, over the depth of the point; of the sun scene units: the
-                             least of all receivers */
-    double added,
-        ray_most;        /**< for gaps: the window depth without units and lengths; the longest of these, scene units */
-    double offset_share; /**< l/(z + l) of the offset l, of the sun l, likewise */
+    double offset;       /**< along the normal at 90 degrees, or at any angle, scene units; where that is least */
+    double offset_most;  /**< and where it is most */
+    double units;        /**< of the API, which are part of the window depths; their worth is that of receivers there */
+    double added;        /**< window depth that is added as it is: no units, no lengths */
+    double level;        /**< window depth that all rays are given alike, units included */
+    double ray_share;    /**< the length along the ray that is given besides, over the depth of the point; of the sun
+                              scene units: the least of all receivers, */
+    double ray_most;     /**< and the longest, scene units */
+    double offset_share; /**< l/(z + l) of the offset l, of the sun l: the least of all receivers */
     const bias_api *api;
     shadow_growth growth;
 } shadow_given;
@@ -87,6 +86,10 @@ typedef struct shadow_verdict {
     double acne; /**< a surface on the axis has acne at that angle, by the filter alone; NaN: none up to the greatest */
     double gap;  /**< the widest along the light, at the greatest angle, of casters wherever they are, scene units */
 } shadow_verdict;
+
+/** The length along the light that lacks at an angle, degrees, where most lacks; below 0 so much is left. Above 0 the
+ * verdict's `free` is less. */
+double shadow_lacking(const shadow_light *light, const shadow_given *given, double angle);
 
 /** Of receivers of that light from receiver_lo to receiver_hi, at most an eighth of an octave. */
 shadow_verdict shadow_judge(const shadow_light *light, const shadow_given *given);

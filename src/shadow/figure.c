@@ -61,25 +61,33 @@ static double group_at(const mapped *m, int group, double angle) {
     return sum;
 }
 
-/* All causes together. */
-static double needed_at(const mapped *m, int which, double angle) {
-    double sum = 0.0;
-    (void)which;
-    for (int k = 0; k < GROUPS; k++)
-        sum += group_at(m, k, angle);
-    return sum;
+static shadow_given gives(const mapped *m) {
+    const figure_request *r = m->request;
+    return shadow_engine_gives(r->engine, m->light, r->api, r->bias, r->normal_bias);
 }
 
 /* The lengths that an engine's bias gives there: along the ray, by the slope, and along the normal. */
 static double given_at(const mapped *m, int which, double angle) {
-    const figure_request *r = m->request;
-    const shadow_given given = shadow_engine_gives(r->engine, m->light, r->api, r->bias, r->normal_bias);
+    const shadow_given given = gives(m);
     const ground g = shadow_ground_at(m->light, m->light->receiver_lo);
     const double slant = shadow_radians(angle);
     (void)which;
-    return given.window_least * m->depth +
+    return given.level * m->depth + given.ray_share * (m->light->kind == SHADOW_SUN ? 1.0 : g.z) +
            given.factor * shadow_lean(m->light, &g, slant) * fmax(g.texel_x, g.texel_y) +
            shadow_given_offset(&given, angle) / dp_cos(slant);
+}
+
+/* All causes together; beside an engine on the ray where its bias lacks most, so that the curves cross where its
+ * verdict of these receivers does. */
+static double needed_at(const mapped *m, int which, double angle) {
+    double sum = 0.0;
+    if (m->request->engine != NULL) {
+        const shadow_given given = gives(m);
+        return given_at(m, which, angle) + shadow_lacking(m->light, &given, angle);
+    }
+    for (int k = 0; k < GROUPS; k++)
+        sum += group_at(m, k, angle);
+    return sum;
 }
 
 static double gap_at(const mapped *m, int way, double angle) {

@@ -79,7 +79,7 @@ static const char *camera_refuses(const frame *f, const frame_product *product) 
     return NULL;
 }
 
-/* What is made of window depths, and reads those from 0 to 1. */
+/* Effects and the quicker ways to a position are made of window depths, and read those from 0 to 1. */
 static const char *range_refuses(const frame *f, const frame_product *product) {
     const bool reads = product->kind == FRAME_EFFECT || (product->kind == FRAME_POSITION && product->position != NULL);
     return f->camera->setup.ranged && reads

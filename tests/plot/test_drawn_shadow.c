@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The figure of shadow maps, as drawn, against the room shadow: gaps and causes of each map at each angle. */
 #include "drawn.h"
+#include "printed.h"
 #include "shadow/shadow.h"
 #include "support.h"
 
@@ -26,7 +27,7 @@ typedef struct curve {
     int index;
 } curve;
 
-static double value_at(const curve *c, double angle) {
+static double length_at(const curve *c, double angle) {
     const double depth = c->light.setup.spec.zfar - c->light.setup.spec.znear;
     double along_light, along_normal, sum = 0;
     shadow_need need;
@@ -41,7 +42,7 @@ static double value_at(const curve *c, double angle) {
 }
 
 static bool true_length(const void *context, double from, double to, double *lo, double *hi) {
-    const double a = value_at(context, fmax(from, 0)), b = value_at(context, to);
+    const double a = length_at(context, fmax(from, 0)), b = length_at(context, to);
     *lo = fmin(a, b);
     *hi = fmax(a, b);
     return from >= 1; /* at 0 some are 0, which a log axis has not */
@@ -113,4 +114,56 @@ TEST(cascades) {
         check_panel(d, &d->panels[i], &c.light);
     }
     drawn_close(d);
+}
+
+/* The first angle at which less is given than needed; most where there is none. */
+static double crossing(json_t *needed, json_t *given, double most) {
+    for (size_t i = 0; i < json_array_size(needed); i++) {
+        const double need = number_at(json_array_get(needed, i), "length");
+        const double have = number_at(json_array_get(given, i), "length");
+        if (!isnan(need) && !(have >= need))
+            return number_at(json_array_get(needed, i), "angle");
+    }
+    return most;
+}
+
+/* With an engine the curves cross at the angle up to which its verdict of the same receivers is free of acne. */
+TEST(where_an_engine_fails) {
+    static const char *const engines[] = {"three", "bevy", "godot", "unity-urp", "babylon", "playcanvas", "filament"};
+    static const char *const lights[] = {"--spot 90", "--spot 40", "--point", "--point --distance",
+                                         "--light-box 20x20x50"};
+    static const char *const formats[] = {"fp32 -m d3d", "fp32 -m reversed", "d16", "fp16 -m reversed"};
+    tally t = {.name = "crossings"};
+    rng r = rng_make("shadow crossings");
+    uint64_t between = 0;
+    for (uint64_t n = test_cases(20, 60, 600); n > 0; n--) {
+        char line[256];
+        const double z = rng_log(&r, 1, 20);
+        const uint64_t light = rng_below(&r, 5);
+        snprintf(line, sizeof line,
+                 "shadow --engine %s %s %s -F %s --range %.17g:%.17g --bias %.17g --normal-bias %.3g",
+                 engines[rng_below(&r, 7)], lights[light], light < 4 ? "-n 0.5 -f 30" : "", formats[rng_below(&r, 4)],
+                 z, z * (1 + 1e-6), rng_log(&r, 1e-4, 1), rng_below(&r, 2) ? 0 : rng_uniform(&r, 0, 2));
+        printed p = print_of("%s --json", line);
+        if (p.status == 0) { /* some engines have no such bias, or take only so much */
+            json_t *root = json_of(p.out), *figure = json_printed(0, "plot %s", line);
+            const double told = number_at(root, "setups[0].engines[0].free_to"), most = 75;
+            json_t *series = json_object_get(json_array_get(json_object_get(figure, "panels"), 0), "series");
+            const double at = crossing(json_object_get(json_array_get(series, 0), "points"),
+                                       json_object_get(json_array_get(series, 1), "points"), most);
+            between += at > 0 && at < most;
+            /* the verdict takes tenths of a degree at their worst, the curves have a point in each 0.42 degrees */
+            const double more = at - (isnan(told) ? 0 : told);
+            TALLY(&t, more >= -1e-9 && more < 2, "%s: free to %g, drawn %g", line, told, at);
+            json_decref(figure);
+            json_decref(root);
+        }
+        printed_free(&p);
+    }
+    assert_true(between > 0);
+    tally_end(&t);
+}
+
+TEST(data_of_an_engine) {
+    check_says(0, "needed [scene units],\"given, three", "plot shadow --engine three --spot 90 -n 0.1 -f 30 --csv");
 }

@@ -7,7 +7,7 @@
 #include "camera/depth_range.h"
 #include "core/engine.h"
 
-/* Of either order; camera_make() and range_complete() say what viewports take. */
+/* LO may be above HI; camera_make() and range_complete() say what viewports take. */
 static int add_depth_range(asked_line *line, const option_row *row, const char *value, void *group) {
     camera_asked *c = group;
     const size_t split = strcspn(value, ":");

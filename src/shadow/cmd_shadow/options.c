@@ -193,8 +193,6 @@ static const option_rule shadow_rules[] = {CONFLICTS("spot", "point", NULL),
                                            NEEDS("bias", "engine", NULL),
                                            NEEDS("check", "engine", ": it is its bias that is judged"),
                                            NEEDS("normal-bias", "engine", NULL),
-                                           CONFLICTS("csv", "engine rasterize", ", which text and JSON tell of"),
-
                                            NEEDS("render", "rasterize", NULL),
                                            CONFLICTS("rasterize", "distance", ", which a fragment shader writes"),
                                            CONFLICTS("rasterize", "curvature", ": it draws planes"),
@@ -257,6 +255,10 @@ static const option_place places[] = {CAMERA_PLACES(shadow_request),
                                       PLACE(shadow_request, bias, bias_options),
                                       {.table = NULL}};
 
+/* A figure's data tell of an engine in CSV, too. */
+static const option_rule rules[] = {CONFLICTS("csv", "engine rasterize", ", which text and JSON tell of"),
+                                    {.option = NULL}};
+
 static const command_part parts[] = {
     {"to cascades", PART_CASCADES}, {"with --light-box", PART_BOX}, {"with --spot or --point", PART_PLACE}, {NULL, 0}};
 
@@ -294,7 +296,7 @@ static const command_word words[] = {
 /* clang-format off */
 const command_row command_shadow = {
     .name = "shadow", .request = sizeof(shadow_request), .places = places, .uses = uses,
-    .complete = complete, .words = words, .operand = "",
+    .complete = complete, .rules = rules, .words = words, .operand = "",
     .summary = "shadow maps: the bias that prevents acne, and its gap",
     .example = "  depthprec shadow -n 0.1 -f 150 --size 2048 --unit m\n"
     "  depthprec shadow --light-box 40x40x200 -F d16 --kernel 5 --angle 70 --api gl\n"

@@ -287,7 +287,7 @@ static bool add_error(statistics *r, const frame_product *product) {
     return frame_summarise(&r->source.frame, product, &e->sum);
 }
 
-/* Of a depth range both what a shader makes of the depth as it is stored, and of the depth that is brought to 0 to 1.
+/* In a depth range it is judged twice: for the depth as it is stored, and for the depth brought to 0 to 1.
  */
 static bool add_decoding(statistics *r, const decode_row *row, bool undone) {
     if (r->error_count == ERRORS_MAX || r->source.frame.metric || r->source.camera.oblique.on ||
