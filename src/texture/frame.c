@@ -18,26 +18,27 @@ enum {
     ROOM = 40 << 20     /* bytes, for all strips at hand */
 };
 
+/* How far a code is from the window depth of far, as a share of the depth range. */
+static double from_far(const dp_setup *setup, uint32_t rank) {
+    const double value = dp_format_value(&setup->spec.format, frame_code(setup, rank));
+    return fabs(value - setup->ends[1]) / setup->span;
+}
+
 uint32_t frame_sky_rank(const frame *f) {
     const dp_setup *setup = &f->camera->setup;
     const dp_format *format = &setup->spec.format;
     if (f->metric || f->sky < 0)
         return format->code_max + 1;
-    const double edge = setup->reversed ? f->sky : 1 - f->sky;
+    const double edge = setup->ends[1] + (setup->reversed ? f->sky : -f->sky) * setup->span;
     uint32_t rank = frame_rank(setup, dp_format_encode(format, DP_ROUND_NEAREST, edge));
     const uint32_t far = frame_rank(setup, setup->code_far);
-    for (;; rank++) { /* two steps at most either way: the nearest code is a neighbour of the edge */
-        const double value = dp_format_value(format, frame_code(setup, rank));
-        if (rank >= far || (setup->reversed ? value : 1 - value) <= f->sky)
-            break;
-    }
-    while (rank > 0) {
-        const double value = dp_format_value(format, frame_code(setup, rank - 1));
-        if ((setup->reversed ? value : 1 - value) > f->sky)
-            break;
+    /* two steps at most either way: the nearest code is a neighbour of the edge */
+    while (rank < far && from_far(setup, rank) > f->sky)
+        rank++;
+    rank = rank < far ? rank : far;
+    while (rank > 0 && from_far(setup, rank - 1) <= f->sky)
         rank--;
-    }
-    return rank < far ? rank : far;
+    return rank;
 }
 
 void frame_codes(const frame *f, uint32_t row, uint32_t *codes) {

@@ -780,3 +780,28 @@ TEST(refused_files) {
         check_says(2, rows[i].said, "check %s", path);
     }
 }
+
+/* Sky begins where the depth from 0 to 1 is within 0.0001 of far's, in every range: 1/z = 0.0001/n + 0.9999/f, within a
+ * cell. */
+TEST(sky_of_ranges) {
+    rng r = rng_make("sky of ranges");
+    tally t = {.name = "sky of ranges"};
+    for (uint64_t n = test_cases(10, 60, 1000); n > 0; n--) {
+        const char *mapping = mappings[rng_below(&r, 4)];
+        const double z = 1 / (0.0001 / 0.1 + 0.9999 / 1000);
+        double e[2];
+        rng_range(&r, e);
+        const double cell = z * z / 0.1 / ((1 << 24) * fabs(e[1] - e[0]));
+        if (cell > z / 4)
+            continue;
+        json_t *root = json_printed(0,
+                                    "texture --synthetic plane --size 8x8 -F d24 -m %s -n 0.1 -f 1000 --depth-range "
+                                    "%.17g:%.17g",
+                                    mapping, e[0], e[1]);
+        const double from = number_at(root, "sky.from");
+        TALLY(&t, fabs(from - z) <= 1.1 * cell, "%s %g:%g: from %g, not %g", mapping, e[0], e[1], from, z);
+        TALLY(&t, number_at(root, "sky.pixels") == 0, "%s %g:%g: a plane at 10 is sky", mapping, e[0], e[1]);
+        json_decref(root);
+    }
+    tally_end(&t);
+}

@@ -83,7 +83,7 @@ static double packed_depth(packing_on *on, double d) {
     const texture_source *s = on->w.source;
     on->holes += isnan(d) ? 1 : 0;
     if (isnan(d))
-        return on->p->linear || !s->setup.reversed ? 1 : 0;
+        return on->p->linear ? 1 : s->setup.ends[1];
     return on->p->linear ? dp_eye(&s->setup, d, 1 - d) / frame_planes(&s->frame)->spec.zfar : d;
 }
 
