@@ -232,13 +232,7 @@ int cmd_prepass(void *request) {
     int status = check(&a);
     if (status == EXIT_FINE)
         status = work(&a);
-    if (status == EXIT_FINE)
-        status = output_start(&o->out, &o->camera, &a.each.out);
-    if (status == EXIT_FINE) {
-        report_write(&(report_spec){"prepass", columns, &a, .label = 14}, &a.each.out, o->out.form);
-        status = output_close(&a.each.out);
-    }
+    status = each_setup_write(&a.each, &(report_spec){"prepass", columns, &a, .label = 14}, status);
     free(a.results);
-    setups_release(&a.each.all);
     return status;
 }

@@ -48,7 +48,7 @@ typedef struct stored {
 /* ---- What is found ----------------------------------------------------------------------------------------------- */
 
 static double window_at(const dp_setup *setup, double z) {
-    return isinf(z) ? setup->ends[1] : fmin(fmax(dp_window(setup, z), 0), 1);
+    return isinf(z) ? setup->ends[1] : dp_window(setup, z);
 }
 
 static void find_format(const stored *a, const dp_setup *setup, const stored_case *one, line *l) {
@@ -259,13 +259,7 @@ int prepass_stored(const prepass_request *o) {
         status = range_resolve(&o->camera, &a.lo, &a.hi);
     if (status == EXIT_FINE)
         status = work(&a);
-    if (status == EXIT_FINE)
-        status = output_start(&o->out, &o->camera, &a.each.out);
-    if (status == EXIT_FINE) {
-        report_write(&(report_spec){"prepass", columns, &a, .label = 14}, &a.each.out, o->out.form);
-        status = output_close(&a.each.out);
-    }
+    status = each_setup_write(&a.each, &(report_spec){"prepass", columns, &a, .label = 14}, status);
     free(a.lines);
-    setups_release(&a.each.all);
     return status;
 }
