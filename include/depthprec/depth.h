@@ -51,8 +51,8 @@ DP_API double dp_window(const dp_setup *setup, double z);
  *
  * Formula: perspective 1/z = q/n + d/f (standard) or d/n + q/f (reversed); orthographic z = q n + d f, or the reverse.
  * Bound: 2^-50 relative (log: 2^-45), of that formula with d and q as given where depth 0 lies between the planes.
- * In a depth range from the near plane's window depth a to the far plane's b: the same of (d - a)/(b - a), and beyond an
- * end that plane.
+ * In a depth range from the near plane's window depth a to the far plane's b: the same of (d - a)/(b - a), and beyond
+ * an end that plane.
  * Special cases: INFINITY at the infinite far plane. Results are not clipped to [near, far].
  */
 DP_API double dp_eye(const dp_setup *setup, double d, double q);

@@ -136,14 +136,15 @@ TEST(where_an_engine_fails) {
     tally t = {.name = "crossings"};
     rng r = rng_make("shadow crossings");
     uint64_t between = 0;
-    for (uint64_t n = test_cases(20, 60, 600); n > 0; n--) {
+    for (uint64_t n = test_cases(40, 60, 600); n > 0; n--) {
         char line[256];
         const double z = rng_log(&r, 1, 20);
         const uint64_t light = rng_below(&r, 5);
+        const char *engine = engines[rng_below(&r, 7)], *format = formats[rng_below(&r, 4)];
+        const double bias = rng_log(&r, 1e-4, 1), normal = rng_below(&r, 2) ? 0 : rng_uniform(&r, 0, 2);
         snprintf(line, sizeof line,
-                 "shadow --engine %s %s %s -F %s --range %.17g:%.17g --bias %.17g --normal-bias %.3g",
-                 engines[rng_below(&r, 7)], lights[light], light < 4 ? "-n 0.5 -f 30" : "", formats[rng_below(&r, 4)],
-                 z, z * (1 + 1e-6), rng_log(&r, 1e-4, 1), rng_below(&r, 2) ? 0 : rng_uniform(&r, 0, 2));
+                 "shadow --engine %s %s %s -F %s --range %.17g:%.17g --bias %.17g --normal-bias %.3g", engine,
+                 lights[light], light < 4 ? "-n 0.5 -f 30" : "", format, z, z * (1 + 1e-6), bias, normal);
         printed p = print_of("%s --json", line);
         if (p.status == 0) { /* some engines have no such bias, or take only so much */
             json_t *root = json_of(p.out), *figure = json_printed(0, "plot %s", line);
