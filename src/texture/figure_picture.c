@@ -108,16 +108,17 @@ static void add_panel(const picture *in, chart *out, int channel) {
 
 /* The least and greatest finite number; of magnitudes the least above 0. */
 static void extent(const picture *in, double *lo, double *hi) {
-    *lo = INFINITY;
-    *hi = -INFINITY;
+    const float *const values = in->values, left_out = in->magnitudes ? 0 : INFINITY;
+    float least = INFINITY, most = -INFINITY;
     const size_t count = (size_t)in->rows * (size_t)in->columns * (size_t)in->channels;
+#pragma omp simd reduction(min : least) reduction(max : most)
     for (size_t i = 0; i < count; i++) {
-        const double value = (double)in->values[i];
-        if (!isfinite(value) || (in->magnitudes && value == 0))
-            continue;
-        *lo = value < *lo ? value : *lo;
-        *hi = value > *hi ? value : *hi;
+        const bool counts = fabsf(values[i]) < INFINITY && values[i] != left_out;
+        least = counts && values[i] < least ? values[i] : least;
+        most = counts && values[i] > most ? values[i] : most;
     }
+    *lo = (double)least;
+    *hi = (double)most;
 }
 
 static chart_axis scale_of(const picture *in) {
