@@ -65,11 +65,23 @@ def _metadata():
             "Description-Content-Type: text/markdown\n\n%s" % (_version(), text)).encode()
 
 
+def _stub(text):
+    """The stub, with the keys of Camera.__init__ also where others take them: each in their place, without its default."""
+    keys = re.findall(rb"^        (\w+)(: .* = )", text.split(b"def __init__(")[1].split(b") -> None")[0], re.M)
+
+    def spelt(asked):
+        left_out = asked.group(1).split(b", ") if asked.group(1) else ()
+        return b"".join(b"        %s%s...,\n" % key for key in keys if key[0] not in left_out)
+
+    return re.sub(rb"^        # keys of __init__(?: but (.*))?, by package.py\n", spelt, text, flags=re.M)
+
+
 def _wheel_files():
     build, files = _build(), {}
     for name in sorted(os.listdir(os.path.join(HERE, "depthprec"))):
         if name.endswith((".py", ".pyi", ".typed")):
-            files["depthprec/" + name] = _read("src", "python", "depthprec", name)
+            data = _read("src", "python", "depthprec", name)
+            files["depthprec/" + name] = _stub(data) if name.endswith(".pyi") else data
     for name, path in (("libdepthprec.so.0", "libdepthprec.so.0"), ("bin/depthprec", "plain/depthprec")):
         _check_needs(os.path.join(build, path))
         with open(os.path.join(build, path), "rb") as file:

@@ -350,6 +350,30 @@ class Program(unittest.TestCase):
                 work()
             self.assertGreater(caught.exception.status, 1)
 
+    def test_keys(self):
+        """What a camera says of itself to a command are options of it, all of its own but what the command is not about."""
+        c = Camera(0.5, 60, "d24", "gl", rounding="even", model="staged", arith="fused", viewport=(640, 480), fov=30,
+                   raster="spec-gl", subpixel=4, slant=(1, 2), triangle_class=(2, 4, 3))
+        others = Camera(0.5, 60, "d24", ortho=True), Camera(0.5, 60, "d24", "log", log_c=3)
+
+        def told(command):
+            return set().union(*(camera._options(command) for camera in (c, *others)))
+
+        for command, left_out in (("solve", {"model"}), ("bias", {"model"}), ("plot", {"model"}), ("table", {"model"}),
+                                  ("texture", {"model", "arith", "fov", "viewport"})):
+            said = program(command, "--help=all").decode()
+            options = {name.replace("-", "_") for name in re.findall(r"^ +(?:-\w, )?--([a-z-]+)", said, re.M)}
+            self.assertEqual(told(command), (set(c._given) & options) - left_out, command)
+        self.assertEqual(told("check"), set(c._given) - {"viewport", "fov", "raster", "subpixel", "slant", "triangle_class"})
+        for camera in (c.replace(viewport=None, fov=60.0, raster=None, subpixel=None, slant=(0, 90), triangle_class=(2, 512, 16)),
+                       *others):
+            done = depthprec.check({"cameras": {"a": camera}, "requirements": {
+                "b": {"camera": "a", "range": [1, 2], "separation": 1}}})
+            self.assertEqual([row["name"] for row in done["requirements"]], ["b"])
+            self.assertIn("<svg", depthprec.plot("error", camera))
+        self.assertIn("<svg", depthprec.plot("interval", c))
+        self.assertTrue(depthprec.bias(c, separation=1, at=5))
+
     def test_figures(self):
         c = Camera(0.2, 500, "unorm24")
         drawn = depthprec.plot("error", c)

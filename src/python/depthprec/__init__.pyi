@@ -101,17 +101,7 @@ class Camera:
         mapping: str | None = None,
         *,
         layout: _Layout | None = None,
-        format: str = ...,
-        rounding: _Rounding = ...,
-        model: _Model = ...,
-        arith: str = ...,
-        log_c: float = ...,
-        viewport: tuple[int, int] | None = ...,
-        fov: float = ...,
-        raster: _Raster | None = ...,
-        subpixel: int | None = ...,
-        slant: tuple[float, float] = ...,
-        triangle_class: tuple[float, float, float] = ...,
+        # keys of __init__ but near, far, mapping, ortho, by package.py
     ) -> Camera: ...
     @classmethod
     def preset(
@@ -119,40 +109,12 @@ class Camera:
         name: str,
         *,
         unit: str | None = None,
-        near: float = ...,
-        far: float = ...,
-        format: str = ...,
-        mapping: str = ...,
-        ortho: bool = ...,
-        rounding: _Rounding = ...,
-        model: _Model = ...,
-        arith: str = ...,
-        log_c: float = ...,
-        viewport: tuple[int, int] | None = ...,
-        fov: float = ...,
-        raster: _Raster | None = ...,
-        subpixel: int | None = ...,
-        slant: tuple[float, float] = ...,
-        triangle_class: tuple[float, float, float] = ...,
+        # keys of __init__, by package.py
     ) -> Camera: ...
     def replace(
         self,
         *,
-        near: float = ...,
-        far: float = ...,
-        format: str = ...,
-        mapping: str = ...,
-        ortho: bool = ...,
-        rounding: _Rounding = ...,
-        model: _Model = ...,
-        arith: str = ...,
-        log_c: float = ...,
-        viewport: tuple[int, int] | None = ...,
-        fov: float = ...,
-        raster: _Raster | None = ...,
-        subpixel: int | None = ...,
-        slant: tuple[float, float] = ...,
-        triangle_class: tuple[float, float, float] = ...,
+        # keys of __init__, by package.py
     ) -> Camera: ...
     @overload
     def encode(self, z: _Number, *, out: None = None) -> int: ...
