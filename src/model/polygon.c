@@ -47,10 +47,14 @@ static bool is_ear(const view *v, const uint32_t *corner, size_t corners, size_t
     return true;
 }
 
+/* So a fan covers it. Corners in line would lie on triangles of the fan, a crack beside the next face, and are cut off
+ * as ears; a face too large for that may have them. */
 static bool is_convex(const view *v, const uint32_t *corner, size_t corners) {
-    for (size_t i = 0; i < corners; i++)
-        if (!(turn(v, corner[i], corner[(i + 1) % corners], corner[(i + 2) % corners]) >= 0.0))
+    for (size_t i = 0; i < corners; i++) {
+        const double turned = turn(v, corner[i], corner[(i + 1) % corners], corner[(i + 2) % corners]);
+        if (!(turned > 0.0 || (corners > POLYGON_MAX && turned == 0.0)))
             return false;
+    }
     return true;
 }
 
