@@ -62,25 +62,47 @@ static double density_of(const dp_worst *worst) {
 /* ---- The rows ---------------------------------------------------------------------------------------------------- */
 
 static const quantity_row rows[QUANTITY_COUNT] = {
-    [QUANTITY_SEPARATION] = {"separation", NULL, "separation", NULL, "guaranteed separation", "scene units",
-                             dp_separation, separation_over, NULL},
-    [QUANTITY_ERROR] = {"error", NULL, "error of the stored depth", NULL, "worst |decoded depth \u2212 z|",
-                        "scene units", error_at, error_over, error_of},
-    [QUANTITY_TIES] = {"ties", NULL, "share of ties and swaps", NULL, NULL, NULL, NULL, NULL, NULL},
-    [QUANTITY_BIAS] = {"bias", NULL, "bias", NULL, NULL, NULL, NULL, NULL, NULL},
-    [QUANTITY_INTERVAL] = {"interval", NULL, NULL, NULL, "z-fighting interval", "scene units", interval_at,
-                           interval_over, interval_of},
-    [QUANTITY_DENSITY] = {"density", NULL, NULL, NULL, "codes, fewest", "per scene unit of depth", NULL, NULL,
-                          density_of},
+    [QUANTITY_SEPARATION] = {.name = "separation",
+                             .note = "separation",
+                             .axis = "guaranteed separation",
+                             .unit = "scene units",
+                             .of_surfaces = true,
+                             .at = dp_separation,
+                             .over = separation_over,
+                             .within = dp_separation_within},
+    [QUANTITY_ERROR] = {.name = "error",
+                        .note = "error of the stored depth",
+                        .axis = "worst |decoded depth \u2212 z|",
+                        .unit = "scene units",
+                        .at = error_at,
+                        .over = error_over,
+                        .within = dp_error_within,
+                        .of_cells = error_of},
+    [QUANTITY_TIES] = {.name = "ties", .note = "share of ties and swaps"},
+    [QUANTITY_BIAS] = {.name = "bias", .note = "bias", .of_surfaces = true},
+    [QUANTITY_INTERVAL] = {.name = "interval",
+                           .axis = "z-fighting interval",
+                           .unit = "scene units",
+                           .at = interval_at,
+                           .over = interval_over,
+                           .of_cells = interval_of},
+    [QUANTITY_DENSITY] = {.name = "density",
+                          .axis = "codes, fewest",
+                          .unit = "per scene unit of depth",
+                          .of_cells = density_of},
 };
 
 NAMED_TABLE(quantity, rows);
+
+bool quantity_has_model(quantity_kind q, dp_model model, dp_mapping mapping) {
+    return model != DP_MODEL_FLOAT || rows[q].of_cells == NULL || dp_mapping_get(mapping)->curve == DP_CURVE_LOG;
+}
 
 quantity_worst quantity_over(quantity_kind q, const dp_setup *setup, double lo, double hi, double limit) {
     if (lo != hi)
         return rows[q].over(setup, lo, hi, limit);
     const double value = rows[q].at(setup, lo);
-    return (quantity_worst){value, lo, q == QUANTITY_ERROR ? dp_code(setup, lo) : 0, value <= limit};
+    return (quantity_worst){value, lo, rows[q].of_cells != NULL ? dp_code(setup, lo) : 0, value <= limit};
 }
 
 double quantity_bound(quantity_kind q, const dp_setup *setup, double lo, double hi) {

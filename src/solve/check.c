@@ -18,8 +18,7 @@ const char *check_method_name(check_method method) {
 }
 
 bool check_is_slanted(const check_verdict *v) {
-    return (v->asked->kind == QUANTITY_SEPARATION || v->asked->kind == QUANTITY_BIAS) &&
-           v->setup.spec.triangles.width > 0;
+    return quantity_get(v->asked->kind)->of_surfaces && v->setup.spec.triangles.width > 0;
 }
 
 /* The verdict that a set-up gives in its own model. */
@@ -68,8 +67,9 @@ static void judge_separation(const need *n, const need_camera *camera, const dp_
     judge_in(n, &setup, v);
 }
 
-/* In no model are errors always below another's: rounded once more, a depth may come nearer to a code. */
-static void judge_error(const need *n, const need_camera *camera, const dp_setup *asked, check_verdict *v) {
+/* In no model are cells, and errors in them, always below another's: rounded once more, a depth may come nearer to a
+ * code. */
+static void judge_cells(const need *n, const need_camera *camera, const dp_setup *asked, check_verdict *v) {
     dp_setup setup = dp_setup_guaranteed(asked);
     if (!camera->automatic || (!setup.shader && !dp_setup_in(asked, DP_MODEL_STAGED, &setup)))
         setup = *asked;
@@ -139,10 +139,10 @@ long check_all(const check_request *request, check_verdict *out) {
             *out = (check_verdict){.asked = n, .camera = camera};
             if (n->kind == QUANTITY_SEPARATION)
                 judge_separation(n, camera, &camera->setups[k], out);
-            else if (n->kind == QUANTITY_ERROR)
-                judge_error(n, camera, &camera->setups[k], out);
             else if (n->kind == QUANTITY_BIAS)
                 judge_bias(n, &camera->setups[k], out);
+            else if (n->kind != QUANTITY_TIES)
+                judge_cells(n, camera, &camera->setups[k], out);
             else if (!judge_ties(request, n, &camera->setups[k], out))
                 return -1;
             if ((n->kind == QUANTITY_SEPARATION || n->kind == QUANTITY_TIES) && isfinite(out->z))

@@ -119,7 +119,7 @@ dp_status distance_solve(quantity_kind kind, const dp_setup *setup, double lo, d
                          distance_answer *out) {
     if (setup == NULL || out == NULL)
         return DP_ERROR_NULL;
-    if (kind == QUANTITY_ERROR && setup->spec.model == DP_MODEL_FLOAT)
+    if (!quantity_has_model(kind, setup->spec.model, setup->spec.mapping))
         return DP_ERROR_MODEL;
     if (!(limit > 0.0 && lo >= setup->spec.znear && lo <= hi && hi <= setup->spec.zfar) || lo > farthest)
         return DP_ERROR_RANGE;

@@ -17,7 +17,7 @@
 #include "solve/model.h"
 #include "system/posix.h"
 
-enum { COLOUR_SEPARATION = 0, COLOUR_MISSED = 1, COLOUR_MET = 2, COLOUR_ERROR = 3 };
+enum { COLOUR_SEPARATION = 0, COLOUR_MISSED = 1, COLOUR_MET = 2, COLOUR_CELLS = 3 };
 enum { MARKER_MET = 0, MARKER_MISSED = 4 };
 
 /* The verdicts to show. */
@@ -43,7 +43,7 @@ static void check_requirements(needs *s, chart *out) {
         return;
     check_all(&(check_request){.file = file, .count = no_ties}, s->verdicts);
     for (size_t i = 0; i < all; i++)
-        if (s->verdicts[i].asked->kind == QUANTITY_TIES || s->verdicts[i].asked->kind == QUANTITY_BIAS) {
+        if (quantity_get(s->verdicts[i].asked->kind)->at == NULL) {
             s->ties++;
         } else {
             s->passed += s->verdicts[i].passed;
@@ -80,26 +80,35 @@ static void find_range(needs *s) {
     s->request.hi = hi * dp_pow(margin, 5);
 }
 
-static void error_of(const void *context, double from, double to, refine_sample *out) {
-    envelope_slice(context, from, to, QUANTITY_ERROR, out);
+typedef struct cells {
+    const dp_setup *setup;
+    quantity_kind kind;
+} cells;
+
+static void sample(const void *context, double from, double to, refine_sample *out) {
+    const cells *c = context;
+    envelope_slice(c->setup, from, to, c->kind, out);
 }
 
-static void add_curve(const figure_request *r, chart *out, chart_panel *panel, const dp_setup *given, bool is_error) {
-    dp_setup staged; /* in which an error is judged where float, which has none, is the fullest */
-    const bool other = is_error && given->spec.model == DP_MODEL_FLOAT && dp_setup_in(given, DP_MODEL_STAGED, &staged);
+static void add_curve(const figure_request *r, chart *out, chart_panel *panel, const dp_setup *given,
+                      quantity_kind kind) {
+    const bool of_cells = quantity_get(kind)->of_cells != NULL;
+    dp_setup staged; /* in which it is judged where float, which has no cells, is the fullest */
+    const bool other = of_cells && given->spec.model == DP_MODEL_FLOAT && dp_setup_in(given, DP_MODEL_STAGED, &staged);
     const dp_setup *setup = other ? &staged : given;
-    refine_request q = envelope_request(r, setup, out, panel, error_of, setup);
+    const cells c = {setup, kind};
+    refine_request q = envelope_request(r, setup, out, panel, sample, &c);
     q.lo = fmax(q.lo, setup->spec.znear);
     q.hi = fmin(q.hi, setup->spec.zfar);
     q.slices = true;
     chart_series *s = !(q.lo < q.hi) ? NULL
-                      : is_error     ? envelope_curve(out, panel, &q)
+                      : of_cells     ? envelope_curve(out, panel, &q)
                                      : guaranteed_separation(out, panel, &q, setup);
     if (s == NULL)
         return;
     s->style =
-        (chart_style){is_error ? COLOUR_ERROR : COLOUR_SEPARATION, is_error ? THEME_DOTTED : THEME_SOLID, -1, false};
-    snprintf(s->name, sizeof s->name, "%s", is_error ? "error given" : "separation given");
+        (chart_style){of_cells ? COLOUR_CELLS : COLOUR_SEPARATION, of_cells ? THEME_DOTTED : THEME_SOLID, -1, false};
+    snprintf(s->name, sizeof s->name, "%s given", quantity_get(kind)->name);
 }
 
 /* Adds a level for each requirement over its depths, then a point where it is worst, with its name. */
@@ -131,8 +140,10 @@ static void add_needs(const needs *s, chart *out, chart_panel *panel, const chec
         memcpy(&levels->y[2 * k], (double[]){n->limit, n->limit}, 2 * sizeof hi);
         points->x[k] = fmin(isfinite(v->z) ? v->z : hi, hi);
         points->y[k] = n->limit;
-        snprintf(points->labels[k++], sizeof *points->labels, "%s%s", n->name,
-                 n->kind == QUANTITY_ERROR ? " (error)" : "");
+        snprintf(points->labels[k], sizeof *points->labels, "%s", n->name);
+        if (quantity_get(n->kind)->of_cells != NULL)
+            append(points->labels[k], sizeof *points->labels, " (%s)", quantity_get(n->kind)->name);
+        k++;
     }
 }
 
@@ -148,9 +159,9 @@ static void add_panel(needs *s, chart *out, const check_verdict *first) {
              spec->triangles.width > 0 ? ", any slant" : "");
     for (size_t i = 0; i < s->count; i++)
         wanted[s->verdicts[i].asked->kind] |= same_setup(first, &s->verdicts[i]);
-    for (int is_error = 0; is_error < 2; is_error++)
-        if (wanted[is_error ? QUANTITY_ERROR : QUANTITY_SEPARATION])
-            add_curve(&s->request, out, panel, &setup, is_error);
+    for (int q = 0; q < QUANTITY_COUNT; q++)
+        if (wanted[q])
+            add_curve(&s->request, out, panel, &setup, (quantity_kind)q);
     add_needs(s, out, panel, first, true);
     add_needs(s, out, panel, first, false);
 }

@@ -91,9 +91,8 @@ static bool is_aligned(const solve_problem *p, const dp_setup *outer, const dp_s
 
 static bool all_pass(const search *s, const dp_setup *outer, const dp_setup *inner) {
     const solve_problem *p = s->problem;
-    if (p->kind == QUANTITY_SEPARATION)
-        return dp_separation_within(outer, inner, p->lo, p->hi, p->limit);
-    return s->aligned ? is_aligned(p, outer, inner) : dp_error_within(outer, inner, p->lo, p->hi, p->limit);
+    return s->aligned ? is_aligned(p, outer, inner)
+                      : quantity_get(p->kind)->within(outer, inner, p->lo, p->hi, p->limit);
 }
 
 /* The same question in the model exact, of surfaces that face the camera: no model has a separation below that. */
@@ -264,8 +263,7 @@ static dp_status limits(const solve_problem *p, double *least, double *most) {
 dp_status plane_solve(const solve_problem *p, plane_answer *out) {
     if (p == NULL || out == NULL)
         return DP_ERROR_NULL;
-    const bool logarithm = dp_mapping_get(p->spec.mapping)->curve == DP_CURVE_LOG;
-    if (p->kind == QUANTITY_ERROR && p->spec.model == DP_MODEL_FLOAT && !logarithm)
+    if (!quantity_has_model(p->kind, p->spec.model, p->spec.mapping))
         return DP_ERROR_MODEL;
     /* A near plane is looked for among the positive ones; a far one behind the depths, which may begin anywhere. */
     const double first = p->unknown == SOLVE_FAR && p->spec.ortho ? p->hi : p->lo;

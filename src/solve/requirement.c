@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/append.h"
 #include "solve/biased.h"
 #include "solve/model.h"
 #include "solve/reader.h"
@@ -14,9 +15,8 @@
 
 /* ---- A requirement, key by key ----------------------------------------------------------------------------------- */
 
-enum { KEY_NAME, KEY_CAMERA, KEY_AT, KEY_RANGE, KEY_SEPARATION, KEY_ERROR, KEY_TIES, KEY_BIAS, KEY_COUNT };
-
-static const char *const keys[] = {"name", "camera", "at", "range", "separation", "error", "ties", "bias", NULL};
+/* Behind its own keys those of the quantities that it may limit. */
+enum { KEY_NAME, KEY_CAMERA, KEY_AT, KEY_RANGE, KEY_LIMIT, KEY_COUNT = KEY_LIMIT + QUANTITY_LIMITED };
 
 static bool known_camera(reader *r, const setting *s, size_t *out) {
     const char *name;
@@ -61,8 +61,8 @@ static bool in_planes(reader *r, const setting *s, const need *n) {
 static bool suits(reader *r, const setting *s, const need *n) {
     const need_camera *camera = &r->file->cameras[n->camera];
     const dp_spec *spec = &camera->setups[0].spec;
-    if (n->kind == QUANTITY_ERROR && spec->model == DP_MODEL_FLOAT)
-        return reader_fail(r, s, "error: needs the model exact, staged or auto, and the camera '%s' has %s",
+    if (!quantity_has_model(n->kind, spec->model, spec->mapping))
+        return reader_fail(r, s, "%s: needs the model exact, staged or auto, and the camera '%s' has %s", s->name,
                            camera->name, model_word(spec->model));
     if (n->kind != QUANTITY_TIES)
         return true;
@@ -93,7 +93,7 @@ static int one_of(reader *r, const setting *group, setting *const *found, int fi
     for (int k = first; k <= last; k++)
         if (found[k] != NULL) {
             if (which >= 0) {
-                reader_fail(r, found[k], "'%s' and '%s' must not both be given", keys[which], keys[k]);
+                reader_fail(r, found[k], "'%s' and '%s' must not both be given", found[which]->name, found[k]->name);
                 return -1;
             }
             which = k;
@@ -105,6 +105,16 @@ static int one_of(reader *r, const setting *group, setting *const *found, int fi
 
 static bool read_need(reader *r, setting *group, bool listed, need *n) {
     setting *found[KEY_COUNT] = {NULL};
+    const char *keys[KEY_COUNT + 1] = {"name", "camera", "at", "range"};
+    char limits[NEED_TEXT_SIZE] = "one of "; /* "separation, error, ties and bias" */
+    for (size_t q = 0; q < QUANTITY_LIMITED; q++) {
+        keys[KEY_LIMIT + q] = quantity_get(q)->name;
+        append(limits, sizeof limits, "%s%s",
+               q == 0                     ? ""
+               : q + 1 < QUANTITY_LIMITED ? ", "
+                                          : " and ",
+               keys[KEY_LIMIT + q]);
+    }
     n->line = group->line;
     n->name = group->name;
     if (!reader_keys(r, group, "requirement", listed ? keys : keys + 1, listed ? found : found + 1))
@@ -129,10 +139,10 @@ static bool read_need(reader *r, setting *group, bool listed, need *n) {
         n->hi = n->lo;
     if (!in_planes(r, found[where], n))
         return false;
-    const int what = one_of(r, group, found, KEY_SEPARATION, KEY_BIAS, "one of separation, error, ties and bias");
+    const int what = one_of(r, group, found, KEY_LIMIT, KEY_COUNT - 1, limits);
     if (what < 0)
         return false;
-    n->kind = (quantity_kind)(what - KEY_SEPARATION);
+    n->kind = (quantity_kind)(what - KEY_LIMIT);
     if (n->kind == QUANTITY_BIAS)
         return reader_bias(r, found[what], n);
     return read_limit(r, found[what], n) && suits(r, found[what], n);

@@ -143,7 +143,7 @@ static const char *sentence_of(const check_file *f, const check_verdict *v, char
     const page p = {.unit = f->file.unit[0] != '\0' ? f->file.unit : NULL};
     char among[NUMBER_SIZE + 4] = "";
     verdict x = verdict_of(f, v);
-    if (v->asked->kind == QUANTITY_SEPARATION || v->asked->kind == QUANTITY_BIAS)
+    if (quantity_get(v->asked->kind)->of_surfaces)
         snprintf(among, sizeof among, ", %s", surfaces(v).text);
     x.among = among;
     const bool bias = v->asked->kind == QUANTITY_BIAS;

@@ -29,8 +29,8 @@ static bool is_known(const solve_request *o, const char *id) {
 
 /* At a slant there is a guarantee of separations, and only of what is affine on the screen. */
 static int check_slanted(const solve_request *o, const solve_report *r) {
-    if (r->kind == QUANTITY_ERROR)
-        return option_error("error", "is that at a point, and conflicts with --viewport");
+    if (!quantity_get(r->kind)->of_surfaces)
+        return option_error(solve_measure_name(r), "is that at a point, and conflicts with --viewport");
     if (option_given(o->line, "model") && !o->camera.model_auto && o->camera.model != DP_MODEL_FLOAT)
         return option_error("model", "must be float or auto with --viewport, got '%s', which knows no slant",
                             option_word("model", o->camera.model));
@@ -70,8 +70,7 @@ static int check_target(const solve_request *o, solve_report *r) {
         return option_error("for", "solves for %s: leave out --%s", option_word("for", r->target),
                             option_word("for", r->target));
     for (size_t m = 0; m < o->camera.mapping_count; m++)
-        if (r->kind == QUANTITY_ERROR && option_given(o->line, "model") && o->camera.model == DP_MODEL_FLOAT &&
-            !is_logarithm(o->camera.mappings[m]))
+        if (option_given(o->line, "model") && !quantity_has_model(r->kind, o->camera.model, o->camera.mappings[m]))
             return option_error("model", "must be exact or staged for an error of %s, got 'float', which has no cells",
                                 dp_mapping_get(o->camera.mappings[m])->name);
     return o->camera.triangles.width > 0 ? check_slanted(o, r) : EXIT_FINE;
@@ -114,7 +113,8 @@ static bool asks_for_choice(solve_target target) {
 static dp_model model_of(const solve_report *r, dp_mapping mapping, bool asked) {
     const solve_request *o = r->o;
     const bool given = option_given(o->line, "model") && !o->camera.model_auto;
-    const bool has_fp32 = is_logarithm(mapping) || (r->kind == QUANTITY_SEPARATION && has_pipeline(mapping));
+    const bool has_fp32 =
+        (is_logarithm(mapping) || has_pipeline(mapping)) && quantity_has_model(r->kind, DP_MODEL_FLOAT, mapping);
     if (given && (asked || o->camera.model != DP_MODEL_FLOAT))
         return o->camera.model;
     return has_fp32 ? DP_MODEL_FLOAT : DP_MODEL_STAGED;
@@ -344,7 +344,7 @@ static void add_slanted(solve_report *r) {
         *s = *c;
         s->solved = false;
         s->spec.triangles.width = 0;
-        if (r->kind == QUANTITY_SEPARATION && c->spec.model == DP_MODEL_FLOAT &&
+        if (quantity_get(r->kind)->of_surfaces && c->spec.model == DP_MODEL_FLOAT &&
             camera_assumed(&r->o->camera.said, &c->spec, &s->spec) &&
             (c->solved ? solve_plane(r, s, c->unknown) : evaluate(r, s)) != DP_OK)
             s->spec.triangles.width = 0;

@@ -24,7 +24,7 @@ double solve_in_binary32(const solve_report *r, const solve_candidate *c, bool s
     dp_budget budget;
     if (!slanted)
         spec.triangles.width = 0;
-    return r->kind == QUANTITY_SEPARATION && quantity_setup(&spec, &setup) == DP_OK &&
+    return quantity_get(r->kind)->of_surfaces && quantity_setup(&spec, &setup) == DP_OK &&
                    dp_budget_at(&setup, c->reached.z, NULL, &budget) == DP_OK
                ? budget.separation
                : (double)NAN;
@@ -190,7 +190,7 @@ static bool is_slanted(const solve_report *r) {
 /* Guaranteed separations without a viewport: what there is of them at any slant stands beside it. */
 static bool is_facing(const solve_report *r, const solve_candidate *c) {
     const bool computed = dp_mapping_get(c->spec.mapping)->curve == DP_CURVE_PERSPECTIVE;
-    return r->kind == QUANTITY_SEPARATION && !is_slanted(r) && (c->spec.model == DP_MODEL_FLOAT || !computed);
+    return quantity_get(r->kind)->of_surfaces && !is_slanted(r) && (c->spec.model == DP_MODEL_FLOAT || !computed);
 }
 
 /* The measured value in the unit of the one wanted, and that beside it. */
@@ -258,8 +258,9 @@ static const char *model_words(const solve_report *r, const solve_candidate *c, 
     const bool shader = computed && dp_mapping_get(c->spec.mapping)->curve == DP_CURVE_LOG;
     const char *more = computed                                     ? dp_arith_get(c->spec.arith)->name
                        : !chosen || c->spec.model == DP_MODEL_EXACT ? ""
-                       : r->kind == QUANTITY_ERROR                  ? "; model float has no cells, so no error"
-                                                                    : "; model float does not cover this mapping";
+                       : quantity_has_model(r->kind, DP_MODEL_FLOAT, c->spec.mapping)
+                           ? "; model float does not cover this mapping"
+                           : "; model float has no cells, so no error";
     snprintf(out, SENTENCE_SIZE, "%s%s%s%s", words[c->spec.model], more,
              shader          ? ", for every log2 that a shader may use"
              : is_slanted(r) ? ", at "
