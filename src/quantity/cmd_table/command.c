@@ -38,10 +38,9 @@ enum {
 /* A depth, and in text as many digits of it as tell it from its neighbours. */
 typedef struct row {
     dp_sample sample;
-    double slanted;             /* the guaranteed one at any slant that is asked for */
-    per_vertex written;         /* what depth written per vertex is off by in such triangles */
-    double lattice, guaranteed; /* the separation in the model exact, and in the fullest that there is */
-    bool certain;               /* what is guaranteed ends before far */
+    double lattice; /* the separation in the model exact */
+    guarantee guarantee;
+    per_vertex written; /* what depth written per vertex is off by in slanted triangles */
     int depth_digits, stored_digits, cell_digits;
 } row;
 
@@ -105,12 +104,6 @@ static int digits_to_see(double at, double step) {
 
 /* ---- What is reported -------------------------------------------------------------------------------------------- */
 
-/* The separation of a row in another model, or in its own. */
-static double separation_in(const dp_setup *other, const dp_setup *setup, const dp_sample *here) {
-    return other->spec.model == setup->spec.model && other->shader == setup->shader ? here->separation
-                                                                                    : dp_separation(other, here->z);
-}
-
 static void set_digits(row *r) {
     const dp_sample *s = &r->sample;
     /* A depth just short of 1 should not look like the far plane's. */
@@ -129,13 +122,11 @@ static void *next_row(void *of, size_t i) {
         return NULL;
     }
     dp_sample_at(&t->setup, z, &r->sample); /* cannot fail: depths_resolve() has seen to it */
-    r->lattice = separation_in(&t->exact, &t->setup, &r->sample);
-    r->guaranteed = separation_in(&t->each.full, &t->setup, &r->sample);
-    r->certain = dp_is_certain(&t->each.full, z, r->guaranteed);
-    if (!(t->uncertain <= z) && z < t->each.full.spec.zfar && !r->certain)
+    r->lattice = dp_separation(&t->exact, z);
+    r->guarantee = each_setup_guarantee(&t->each, z);
+    if (!(t->uncertain <= z) && z < t->each.full.spec.zfar && !r->guarantee.certain)
         t->uncertain = z;
-    r->slanted = each_setup_slanted(&t->each) ? dp_separation(&t->each.slanted, z) : (double)NAN;
-    r->written = per_vertex_at(&t->setup, z, t->each.slant.triangles.depth, r->guaranteed); /* no depth of 0 is one */
+    r->written = per_vertex_at(&t->setup, z, t->each.slant.triangles.depth, r->guarantee.facing); /* no 0 is a depth */
     per_vertex_add(&t->written, &r->written, z);
     if (t->interval.row != NULL)
         r->sample.interval = way_interval(&t->interval, &t->setup, z);
@@ -284,12 +275,12 @@ static const column row_columns[] = {
     {FIELD(row, sample.separation, "separation", "scene")},
     {FIELD(row, lattice, "lattice", "scene"), SHOWN("lattice", 11, DIGITS_SHORT), .upward = true,
      .only = AS_TEXT | AS_JSON},
-    {FIELD(row, guaranteed, "guaranteed", "scene"), SHOWN("guaranteed", 11, DIGITS_SHORT), .upward = true},
-    GUARANTEES(row, guaranteed, slanted, 11, DIGITS_SHORT, WITH_TRIANGLES),
+    {FIELD(row, guarantee.facing, "guaranteed", "scene"), SHOWN("guaranteed", 11, DIGITS_SHORT), .upward = true},
+    GUARANTEES(row, guarantee.facing, guarantee.slanted, 11, DIGITS_SHORT, WITH_TRIANGLES),
     {FIELD(row, written.error, "per_vertex", "scene"), SHOWN("per vertex", 11, DIGITS_SHORT), .upward = true,
      .when = WITH_TRIANGLES | PER_VERTEX},
     {FIELD(row, written.depth, "per_vertex_depth", ""), .when = WITH_TRIANGLES | PER_VERTEX},
-    {FIELD(row, certain, "certain", "")},
+    {FIELD(row, guarantee.certain, "certain", "")},
     {TEXT_FIELD(row, sample.lo, "cell from", 18, 0), .digits_at = offsetof(row, cell_digits), .downward = true,
      .when = VERBOSE},
     {TEXT_FIELD(row, sample.hi, "to", 18, 0), .digits_at = offsetof(row, cell_digits), .upward = true, .when = VERBOSE},
