@@ -330,7 +330,7 @@ npm:
 	@sh src/packages.sh npm
 	@$(MAKE) $(PARALLEL) $(B)/dist/depthprec-$(VERSION).tgz
 
-NPM_NOT := $(patsubst %,src/%.c,draw/canvas draw/pixels image/png method/cmd_methods/command cli/stop texture/strips \
+NPM_NOT := $(patsubst %,src/%.c,draw/canvas draw/pixels image/png method/cmd_methods/command method/cmd_methods/families cli/stop texture/strips \
     probe/opengl probe/vulkan probe/vulkan_compute probe/compile \
     report/output_file report/terminal system/dynload system/pager system/sandbox)
 NPM_O := $(call web_objects,$(filter-out $(NPM_NOT),$(ROOMS)) $(patsubst %,src/web/%.c,canvas engine plain still stream) \
