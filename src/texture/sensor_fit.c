@@ -24,6 +24,7 @@ enum {
     SIGMAS = 4,       /* of how many may be astray */
     TOLD = 4096,      /* values that the chance is of, at most: any choice of them proves it */
     EXPONENTS = 48,   /* of Chernoff's base */
+    FACTORS = 16,     /* of a product: 48 bits each at most, so that it is finite */
     EXTENSIONS = 64,
     ROUNDS = 64
 };
@@ -38,8 +39,12 @@ double fit_chance(const double *probabilities, size_t count, size_t on) {
     for (int e = 1; e <= EXPONENTS; e++) {
         const double base = ldexp(1, e);
         double bits = (double)on * e;
-        for (size_t i = 0; i < count; i++)
-            bits -= dp_log2(1 + fmin(probabilities[i], 1) * (base - 1));
+        for (size_t i = 0; i < count; i += FACTORS) {
+            double product = 1;
+            for (size_t k = i; k < count && k < i + FACTORS; k++)
+                product *= 1 + fmin(probabilities[k], 1) * (base - 1);
+            bits -= dp_log2(product);
+        }
         if (!(bits > most))
             break; /* it is concave in the base's logarithm */
         most = bits;
