@@ -140,6 +140,10 @@ void scene_junit(const scene *s, output *out);
 /** Writes the file of --emit-need. @return EXIT_FINE, or EXIT_IO after one line */
 int scene_need(scene *s);
 
+/** What text says before the findings that data have, and of them; the item is the scene. */
+void scene_say_head(page *p, void *of);
+void scene_say_notes(page *p, void *of);
+
 /** The report: head and notes of the text, columns of JSON and CSV. */
 report_spec scene_report(scene *s);
 
