@@ -10,7 +10,7 @@ core._initialize();
 // The memory never grows, so these views stay.
 const { buffer } = core.memory;
 const place = new Uint8Array(buffer, core.at(0), core.size());
-const numbers = new Float64Array(buffer, core.at(1), 16);
+const numbers = new Float64Array(buffer, core.at(1), 17);
 const text = new Uint8Array(buffer, core.at(2), 512);
 const SIZE = 65536, COUNT = SIZE / 8; // bytes and elements of a block
 const KINDS = { Float32Array, Float64Array, Uint16Array, Uint32Array };
@@ -24,7 +24,7 @@ const WORST = ["lo", "hi", "error", "errorZ", "errorCode", "interval", "interval
     "separation", "separationZ"];
 
 const USUAL = Object.freeze({ near: 0.1, far: 1000, format: "fp32", mapping: "d3d", ortho: false, rounding: "nearest",
-    model: "exact", arith: "ieee", logC: 1, viewport: undefined, fov: 60, raster: undefined, subpixel: undefined, slant: Object.freeze([0, 90]),
+    model: "exact", arith: "ieee", logC: 1, depthRange: Object.freeze([0, 1]), viewport: undefined, fov: 60, raster: undefined, subpixel: undefined, slant: Object.freeze([0, 90]),
     triangleClass: Object.freeze([2, 512, 16]) });
 
 // Rasterizers that do what an API asks for: bits of the grid, and whether there may be more.
@@ -178,13 +178,14 @@ export class Camera {
             if (value !== undefined) given[name] = value;
         }
         const format = word(given.format, "format");
-        const scalars = [real(given.near, "near"), real(given.far, "far"), given.ortho ? 1 : 0, real(given.logC, "logC"), 0];
+        const scalars = [real(given.near, "near"), real(given.far, "far"), given.ortho ? 1 : 0, real(given.logC, "logC"), ...several(given.depthRange, "depthRange", 2), 0];
+        given.depthRange = Object.freeze(scalars.slice(4, 6));
         if (given.viewport !== undefined) {
             const [width, height] = several(given.viewport, "viewport", 2).map((x) => whole(x, "viewport"));
             given.viewport = Object.freeze([width, height]);
             given.slant = Object.freeze(several(given.slant, "slant", 2));
             given.triangleClass = Object.freeze(several(given.triangleClass, "triangleClass", 3));
-            scalars.splice(4, 1, 1, width, height, real(given.fov, "fov"), grid(given), ...given.slant, ...given.triangleClass, given.raster === undefined ? 0 : 1);
+            scalars.splice(6, 1, 1, width, height, real(given.fov, "fov"), grid(given), ...given.slant, ...given.triangleClass, given.raster === undefined ? 0 : 1);
         }
         for (const name of given.viewport === undefined ? ["fov", "raster", "subpixel", "slant", "triangleClass"] : [])
             if (String(given[name]) !== String(USUAL[name])) throw new DepthprecError(`${name} needs a viewport: surfaces face the camera`);

@@ -10,7 +10,7 @@
 
 #define EXPORT(name) __attribute__((export_name(#name)))
 
-enum { BLOCK = 1 << 16, NUMBERS = 16, TEXT = 512 };
+enum { BLOCK = 1 << 16, NUMBERS = 17, TEXT = 512 };
 
 _Static_assert(DP_TASK_CODE == 0 && DP_TASK_EYE == 1 && DP_TASK_LO == 5 && DP_TASK_HI == 6 && DP_TASK_WINDOW == 7 &&
                    DP_TASK_SEPARATION == 8 && DP_TASK_INTERVAL == 9 && DP_REAL_DOUBLE == 1 && DP_WORD_32 == 1 &&
@@ -98,7 +98,7 @@ static dp_plane_error any_plane(void) {
 
 /* Numbers 4 on: whether there are triangles, their fields, and of which planes. @return what is wrong, or null */
 static const char *read_triangles(dp_triangles *out) {
-    const double *n = numbers + 5;
+    const double *n = numbers + 7;
     *out = dp_triangles_default();
     out->width = (int)n[0];
     out->height = (int)n[1];
@@ -115,8 +115,9 @@ static const char *read_triangles(dp_triangles *out) {
 }
 
 /**
- * A set-up of numbers (near, far, ortho, log_c, triangles) and words (format, mapping, arith, rounding, model). The
- * answer is in numbers (code_max, bits) and words (format, mapping, arith), or of triangles that cannot be a sentence.
+ * A set-up of numbers (near, far, ortho, log_c, depth_range, triangles) and words (format, mapping, arith, rounding,
+ * model). The answer is in numbers (code_max, bits) and words (format, mapping, arith), or of triangles that cannot be
+ * a sentence.
  */
 EXPORT(camera) dp_status door_camera(void) {
     dp_spec spec = dp_spec_default();
@@ -125,6 +126,7 @@ EXPORT(camera) dp_status door_camera(void) {
     spec.zfar = numbers[1];
     spec.ortho = numbers[2] != 0;
     spec.log_c = numbers[3];
+    memcpy(spec.depth_range, numbers + 4, sizeof spec.depth_range);
     if (dp_format_parse(word(0), formats) == 0)
         return DP_ERROR_FORMAT;
     spec.format = formats[0];
@@ -134,7 +136,9 @@ EXPORT(camera) dp_status door_camera(void) {
     if (status == DP_OK)
         status = dp_arith_parse(word(2), &spec.arith);
     const char *fault = NULL;
-    if (status == DP_OK && numbers[4] != 0)
+    if (status == DP_OK && spec.depth_range[0] == spec.depth_range[1])
+        status = DP_ERROR_WINDOW;
+    if (status == DP_OK && numbers[6] != 0)
         fault = read_triangles(&spec.triangles);
     if (status == DP_OK)
         status = fault != NULL ? DP_ERROR_TRIANGLES : dp_setup_init(&setup, &spec);

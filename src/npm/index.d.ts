@@ -32,6 +32,9 @@ export interface CameraOptions {
     arith?: string;
     /** The constant C of logarithmic mappings. */
     logC?: number;
+    /** The window depths where NDC depth begins and ends, as glDepthRange or a viewport sets them: from 0 to 1, at least 1e-6 apart, in
+     *  either order; of perspective mappings alone. Default [0, 1]. */
+    depthRange?: readonly [number, number];
     /** Width and height in pixels: separation() then holds for slanted triangles, of these: */
     viewport?: readonly [number, number];
     /** Vertical, degrees. Default 60. */
@@ -84,6 +87,7 @@ export class Camera implements Readonly<Required<Omit<CameraOptions, "viewport" 
     readonly model: "exact" | "staged" | "float";
     readonly arith: string;
     readonly logC: number;
+    readonly depthRange: readonly [number, number];
     readonly viewport: readonly [number, number] | undefined;
     readonly fov: number;
     readonly raster: "spec-d3d" | "spec-vulkan" | "spec-gl" | undefined;

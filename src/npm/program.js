@@ -48,9 +48,10 @@ export function begin({ Camera, DepthprecError, USUAL, only }) {
         if (camera === undefined || camera === null) return {};
         if (!(camera instanceof Camera)) throw new TypeError("camera must be a Camera");
         const { near, far, format, mapping, viewport, slant } = camera, whole = verb === "check";
-        const names = { texture: ["ortho", "logC", "rounding"], check: ["ortho", "logC", "rounding", "model", "arith"] }[verb] ??
-            ["ortho", "logC", "rounding", "arith"];
-        const other = names.filter((name) => camera[name] !== USUAL[name]).map((name) => [whole ? kebab(name).replace("-", "_") : name, camera[name]]);
+        const names = { texture: ["ortho", "logC", "rounding", "depthRange"], check: ["ortho", "logC", "rounding", "depthRange", "model", "arith"] }[verb] ??
+            ["ortho", "logC", "rounding", "depthRange", "arith"];
+        const value = (name) => (name === "depthRange" && !whole ? camera.depthRange.join(":") : camera[name]);
+        const other = names.filter((name) => String(camera[name]) !== String(USUAL[name])).map((name) => [whole ? kebab(name).replace("-", "_") : name, value(name)]);
         if (viewport === undefined || whole || verb === "texture") return { near, far, format, mapping, ...Object.fromEntries(other) };
         const [depth, pixels, slim] = camera.triangleClass;
         return { near, far, format, mapping, ...Object.fromEntries(other), viewport: viewport.join("x"), fov: camera.fov, raster: camera.raster, subpixel: camera.subpixel,

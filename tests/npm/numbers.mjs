@@ -55,11 +55,11 @@ test("the worst: code 2 is widest, 8/21; at 12/7 code 3 is 2/7 off", () => {
 
 test("what a camera is", () => {
     assert.deepEqual({ ...small, viewport: null }, { near: 1, far: 2, format: "unorm2", mapping: "d3d", ortho: false, rounding: "nearest", model: "exact", arith: "ieee",
-        logC: 1, viewport: null, fov: 60, raster: undefined, subpixel: undefined, slant: [0, 90], triangleClass: [2, 512, 16], codeMax: 3, nearLeast: 1, nearMost: 1, farLeast: 2, farMost: 2, nearDigits: 17, farDigits: 17 });
+        logC: 1, depthRange: [0, 1], viewport: null, fov: 60, raster: undefined, subpixel: undefined, slant: [0, 90], triangleClass: [2, 512, 16], codeMax: 3, nearLeast: 1, nearMost: 1, farLeast: 2, farMost: 2, nearDigits: 17, farDigits: 17 });
     assert.throws(() => { small.near = 3; }, TypeError);
     const view = small.replace({ viewport: [320, 200] });
     for (const [key, value] of Object.entries({ near: 0.5, far: 60, format: "fp32", mapping: "log", ortho: true, rounding: "even", model: "staged", arith: "fused",
-        logC: 3, viewport: [640, 480], fov: 30, raster: "spec-gl", subpixel: 4, slant: [1, 2], triangleClass: [2, 4, 3] })) {
+        logC: 3, depthRange: [1, 0.5], viewport: [640, 480], fov: 30, raster: "spec-gl", subpixel: 4, slant: [1, 2], triangleClass: [2, 4, 3] })) {
         const own = ["ortho", "mapping"].includes(key) ? small : view, other = own.replace({ [key]: value });
         assert.deepEqual(other[key], value);
         assert.notDeepEqual({ ...other }, { ...own });
@@ -79,14 +79,25 @@ test("what a camera is", () => {
     assert.match(version, /^\d+\.\d+\.\d+$/);
 });
 
+test("a depth range from 1 down to 1/4: codes 3, 2, 1 are at 1, 9/7, 9/5, and 0 is beyond far", () => {
+    const moved = small.replace({ depthRange: [1, 0.25] });
+    assert.deepEqual(Array.from(moved.encode([1, 9 / 7, 9 / 5, 2])), [3, 2, 1, 1]);
+    [2, 9 / 5, 9 / 7, 1].forEach((z, code) => near(moved.decode(code), z));
+    near(moved.windowDepth(9 / 7), 2 / 3);
+    near(moved.decode(5 / 8, { window: true }), 9 / 7); // as the nearest code
+    assert.deepEqual({ ...moved.replace({ depthRange: [0, 1] }) }, { ...small });
+});
+
 test("what a camera refuses", () => {
     for (const [options, said] of [[{ near: -1 }, /^near must be/], [{ far: 0.01 }, /^far must be/], [{ near: NaN }, /^near must be/], [{ format: "d25x" }, /not a format/],
         [{ mapping: "up" }, /a mapping must be/], [{ rounding: "up" }, /rounding must be/], [{ model: "fast" }, /model/], [{ arith: "?" }, /binary32/],
         [{ far: Infinity, mapping: "log" }, /infinite/], [{ logC: 0, mapping: "log" }, /C of the log/], [{ format: "depth24plus" }, /^depth24plus is unorm24 or fp32/],
         [{ viewport: [0, 5] }, /^viewport must/], [{ viewport: [2 ** 40, 5] }, /^viewport must/], [{ viewport: [1, 2, 3] }, /^viewport must be 2 numbers/], [{ mapping: "log", ortho: true }, /orthographic/],
+        ...[[0, 0], [0.5, 0.5], [0, 1e-7], [-0.1, 1], [0, 1.1], [0, NaN]].map((depthRange) => [{ depthRange }, /^a depth range must/]), [{ depthRange: [0, 0.5], mapping: "log" }, /^a depth range must/],
+        [{ depthRange: [0, 0.5, 1] }, /^depthRange must be 2 numbers/],
         [{ format: "a\0b" }, /zero byte/], [{ format: "x".repeat(1000) }, /shorter/]])
         refuses(() => new Camera(options), said);
-    for (const options of [{ near: "1" }, { near: null }, { near: 1n }, { format: 24 }, { mapping: null }, { viewport: 3 }, { viewport: [1.5, 2] }, { what: 1 }, null, 3])
+    for (const options of [{ near: "1" }, { near: null }, { near: 1n }, { format: 24 }, { mapping: null }, { viewport: 3 }, { viewport: [1.5, 2] }, { depthRange: 1 }, { depthRange: ["0", 1] }, { what: 1 }, null, 3])
         refuses(() => new Camera(options), /must be|has no/, TypeError);
     for (const [lo, hi] of [[5, 1], [0, 5], [1, Infinity], [NaN, 5]]) refuses(() => new Camera().worst(lo, hi), /^a range must/);
     for (const method of ["windowDepth", "separation", "lattice", "interval"]) {

@@ -27,6 +27,7 @@ test("with options as words and as an object they are the program's commands", a
 test("each key of a camera reaches the command", async () => {
     const view = { viewport: [1280, 720] }, seen = new Set(), answers = new Set();
     const keys = [[{}, []], [{ ortho: true }, ["--ortho"]], [{ rounding: "zero" }, ["--rounding=zero"]], [{ mapping: "cesium", logC: 2 }, ["--mapping=cesium", "--log-c=2"]],
+        [{ depthRange: [0, 0.125] }, ["--depth-range=0:.125"]], [{ depthRange: [1, 0.3] }, ["--depth-range=1:.3"]],
         ...["fused", "mesa", "nvidia"].map((arith) => [{ arith }, [`--arith=${arith}`]]), [view, []], [{ ...view, fov: 35 }, ["--fov=35"]], [{ ...view, subpixel: 4 }, ["--subpixel=4"]],
         [{ ...view, raster: "spec-gl" }, ["--raster=spec-gl"]], [{ ...view, raster: "spec-d3d" }, ["--raster=spec-d3d"]], [{ ...view, raster: "spec-vulkan", subpixel: 6 }, ["--raster=spec-vulkan", "--subpixel=6"]],
         [{ ...view, slant: [10, 70] }, ["--slant=10:70"]], [{ ...view, triangleClass: [3, 64, 8] }, ["--triangle-class=depth=3,pixels=64,slim=8"]],
@@ -53,7 +54,7 @@ test("each key of a camera reaches the command", async () => {
 });
 
 test("requirements are an object", async () => {
-    const needs = { unit: "m", cameras: { world: new Camera({ far: Infinity, mapping: "reversed" }), web: { near: "50 cm", far: 2000, format: "unorm24", mapping: "d3d" } },
+    const needs = { unit: "m", cameras: { world: new Camera({ far: Infinity, mapping: "reversed", depthRange: [0, 0.5] }), web: { near: "50 cm", far: 2000, format: "unorm24", mapping: "d3d" } },
         requirements: { decals: { camera: "world", range: [0.5, 50], separation: "0.1 mm" }, props: { camera: "web", at: "1 km", separation: "1 mm" } } };
     const found = await check(needs);
     assert.deepEqual([found.passed, ...found.requirements.map((row) => row.passed)], [false, true, false]);

@@ -275,6 +275,7 @@ class Program(unittest.TestCase):
         view = {"viewport": (1280, 720)}
         keys = [({}, []), ({"ortho": True}, ["--ortho"]), ({"rounding": "zero"}, ["--rounding=zero"]),
                 ({"mapping": "cesium", "log_c": 2.0}, ["--mapping=cesium", "--log-c=2"]),
+                ({"depth_range": (0, 0.125)}, ["--depth-range=0:.125"]), ({"depth_range": (1, 0.3)}, ["--depth-range=1:.3"]),
                 *(({"arith": arith}, ["--arith=" + arith]) for arith in ("fused", "mesa", "nvidia")),
                 (view, []), ({**view, "fov": 35.0}, ["--fov=35"]), ({**view, "subpixel": 4}, ["--subpixel=4"]),
                 ({**view, "raster": "spec-gl"}, ["--raster=spec-gl"]), ({**view, "raster": "spec-d3d"}, ["--raster=spec-d3d"]),
@@ -354,7 +355,8 @@ class Program(unittest.TestCase):
         """What a camera says of itself to a command are options of it, all of its own but what the command is not about."""
         c = Camera(0.5, 60, "d24", "gl", rounding="even", model="staged", arith="fused", viewport=(640, 480), fov=30,
                    raster="spec-gl", subpixel=4, slant=(1, 2), triangle_class=(2, 4, 3))
-        others = Camera(0.5, 60, "d24", ortho=True), Camera(0.5, 60, "d24", "log", log_c=3)
+        others = (Camera(0.5, 60, "d24", ortho=True), Camera(0.5, 60, "d24", "log", log_c=3),
+                  Camera(0.5, 60, "d24", depth_range=(0.25, 1)))
 
         def told(command):
             return set().union(*(camera._options(command) for camera in (c, *others)))
@@ -362,7 +364,7 @@ class Program(unittest.TestCase):
         for command, left_out in (("solve", {"model"}), ("bias", {"model"}), ("plot", {"model"}), ("table", {"model"}),
                                   ("texture", {"model", "arith", "fov", "viewport"})):
             said = program(command, "--help=all").decode()
-            options = {name.replace("-", "_") for name in re.findall(r"^ +(?:-\w, )?--([a-z-]+)", said, re.M)}
+            options = {name.replace("-", "_") for name in re.findall(r"^ +(?:-\w, |plot \w+ +)?--([a-z-]+)", said, re.M)}
             self.assertEqual(told(command), (set(c._given) & options) - left_out, command)
         self.assertEqual(told("check"), set(c._given) - {"viewport", "fov", "raster", "subpixel", "slant", "triangle_class"})
         for camera in (c.replace(viewport=None, fov=60.0, raster=None, subpixel=None, slant=(0, 90), triangle_class=(2, 512, 16)),
@@ -471,7 +473,8 @@ class Program(unittest.TestCase):
             file.write(_program._npy(codes))
         for key, given, words in (({}, {}, []), ({"near": 0.7}, {}, []), ({"far": 90}, {}, []), ({"mapping": "reversed"}, {}, []),
                                   ({"ortho": True}, {}, ["--ortho"]), ({"rounding": "zero"}, {}, ["--rounding=zero"]),
-                                  ({"mapping": "log", "log_c": 2.0}, {}, ["--log-c=2"]), ({}, {"sky": 0}, ["--sky=0"])):
+                                  ({"mapping": "log", "log_c": 2.0}, {}, ["--log-c=2"]), ({}, {"sky": 0}, ["--sky=0"]),
+                                  ({"depth_range": (0, 0.96)}, {}, ["--depth-range=0:.96"])):
             kept = {"near": 0.5, "far": 50, "format": "unorm16", "mapping": "gl", **key}
             line = ["--%s=%s" % (name, kept[name]) for name in ("near", "far", "format", "mapping")] + words
             program("texture", source, *line, "--product=eye", "-o", made, "--json", "-q")
@@ -987,6 +990,10 @@ class Cameras(unittest.TestCase):
                             ({"arith": "?"}, "binary32"),
                             ({"far": math.inf, "mapping": "log"}, "infinite"),
                             ({"log_c": 0, "mapping": "log"}, "C of the log"),
+                            *(({"depth_range": ends}, "a depth range must") for ends in (
+                                (0, 0), (0.5, 0.5), (0, 1e-7), (-0.1, 1), (0, 1.1), (0, math.nan), (0.5, 0.5 + 9e-7))),
+                            ({"depth_range": (0, 0.5), "mapping": "log"}, "a depth range must"),
+                            ({"depth_range": (0, 0.5, 1)}, "depth_range must be 2 numbers"),
                             ({"format": "depth24plus"}, "unorm24 or fp32"), ({"viewport": (0, 5)}, "viewport must"),
                             ({"viewport": (1, 2, 3)}, "viewport must be 2 numbers"),
                             *(({key: value}, key + " needs a viewport") for key, value in (
@@ -999,7 +1006,8 @@ class Cameras(unittest.TestCase):
                             ({"mapping": "log", "ortho": True}, "orthographic")):
             with self.subTest(given), self.assertRaisesRegex(Error, said):
                 Camera(**given)
-        for given in ({"near": "1"}, {"near": None}, {"format": 24}, {"mapping": None}, {"viewport": 3}, {"what": 1}):
+        for given in ({"near": "1"}, {"near": None}, {"format": 24}, {"mapping": None}, {"viewport": 3}, {"what": 1},
+                      {"depth_range": "ab"}, {"depth_range": 1}):
             with self.assertRaises(TypeError):
                 Camera(**given)
         with self.assertRaises(AttributeError):
@@ -1014,6 +1022,23 @@ class Cameras(unittest.TestCase):
             with self.assertRaisesRegex(Error, "a range must"):
                 Camera().worst(lo, hi)
 
+    def test_depth_range(self):
+        """Codes and eye depths in a viewport's range, by hand in rationals: d = lo + (hi - lo) f/(f - n) (1 - n/z)."""
+        from fractions import Fraction as Exact
+        near, far, most = Exact(1, 4), Exact(64), 2**24 - 1
+        for ends in ((0, 0.125), (0.5, 1), (1, 0.25)):
+            c = Camera(float(near), float(far), "unorm24", "d3d", depth_range=ends)
+            lo, hi = map(Exact, ends)
+            for z in (Exact(1, 4), Exact(1), Exact(7, 2), Exact(63), far):
+                code = math.floor((lo + (hi - lo) * far / (far - near) * (1 - near / z)) * most + Exact(1, 2))
+                self.assertEqual(c.encode(float(z)), code)
+                share = min(max((Exact(code, most) - lo) / (hi - lo), Exact(0)), Exact(1))  # beyond an end its plane
+                want = near / (1 - share * (far - near) / far)
+                for back in (c.decode(code), c.decode_window(code / most)):
+                    self.assertLess(abs(Exact(back) / want - 1), Exact(1, 2**45))
+            self.assertEqual([c.decode(code) for code in (0, most)], {0: [0.25, 64], 0.5: [0.25, 64], 1: [64, 0.25]}[ends[0]])
+            self.assertEqual(c.replace(depth_range=(0, 1)), Camera(float(near), float(far), "unorm24", "d3d"))
+
     def test_values(self):
         c = Camera(0.25, 50, "D24", "GL", rounding="zero", log_c=2)
         self.assertEqual(repr(c), "Camera(0.25, 50.0, 'unorm24', 'gl', rounding='zero', log_c=2.0)")
@@ -1022,7 +1047,7 @@ class Cameras(unittest.TestCase):
         self.assertNotEqual(c, Camera(0.25, 50, "D24", "GL"))
         self.assertIn("near", dir(c))
         for key, value in {"near": 0.5, "far": 60.0, "format": "fp32", "mapping": "log", "ortho": True, "rounding": "even",
-                           "model": "staged", "arith": "fused", "log_c": 3.0, "viewport": (640, 480), "fov": 30.0,
+                           "model": "staged", "arith": "fused", "log_c": 3.0, "depth_range": (1.0, 0.5), "viewport": (640, 480), "fov": 30.0,
                            "raster": "spec-gl", "subpixel": 4, "slant": (1, 2), "triangle_class": (2.0, 4.0, 3.0)}.items():
             own = c if key in ("ortho", "mapping") else c.replace(viewport=(320, 200))
             other = own.replace(**{key: value})

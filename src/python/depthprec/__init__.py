@@ -50,6 +50,9 @@ class Camera:
     model      of codes and intervals: "exact", the lattice of real arithmetic; "staged"; "float"
     arith      the binary32 arithmetic that separation() counts: "ieee", "fused", ... (depthprec list arithmetics)
     log_c      the constant C of logarithmic mappings
+    depth_range
+               (lo, hi), the window depths where NDC depth begins and ends, as glDepthRange or a viewport sets them:
+               from 0 to 1, at least 1e-6 apart, in either order; of perspective mappings alone
     viewport   (width, height) in pixels: separation() then holds for slanted triangles; with them fov (vertical,
                degrees), slant ((lo, hi), degrees), triangle_class ((depth, pixels, slim)), raster and subpixel
     raster     "spec-d3d", "spec-vulkan", "spec-gl": any rasterizer that does what the API asks for, with at least
@@ -64,7 +67,7 @@ class Camera:
     __slots__ = ("_given", "_planes", "_setups", "_calls", "_words", "_direct")
 
     def __init__(self, near=0.1, far=1000.0, format="fp32", mapping="d3d", *, ortho=False, rounding="nearest",
-                 model="exact", arith="ieee", log_c=1.0, viewport=None, fov=60.0, raster=None, subpixel=None,
+                 model="exact", arith="ieee", log_c=1.0, depth_range=(0.0, 1.0), viewport=None, fov=60.0, raster=None, subpixel=None,
                  slant=(0.0, 90.0), triangle_class=(2.0, 512.0, 16.0)):
         spec = _core.spec_default()
         spec.znear, spec.zfar = _arrays.real(near, "near"), _arrays.real(far, "far")
@@ -81,6 +84,9 @@ class Camera:
         spec.rounding = _index(_core.ROUNDINGS, rounding, "rounding", "ROUNDING")
         spec.model = _index(_core.MODELS, model, "model", "MODEL")
         spec.ortho, spec.log_c = bool(ortho), _arrays.real(log_c, "log_c")
+        spec.depth_range[:] = lo, hi = [_arrays.real(end, "depth_range") for end in _several(depth_range, "depth_range", 2)]
+        if lo == hi:
+            _core.demand("WINDOW")
         if viewport is not None:
             spec.triangles = _triangles(viewport, fov, raster, subpixel, slant, triangle_class)
             subpixel = spec.triangles.subpixel if subpixel is not None else None
@@ -96,7 +102,7 @@ class Camera:
         self._given = {"near": spec.znear, "far": spec.zfar, "format": spec.format.name.decode(),
                        "mapping": _core.mapping_get(spec.mapping)[0].decode(), "ortho": bool(ortho),
                        "rounding": rounding, "model": model, "arith": _core.arith_get(spec.arith)[0].decode(),
-                       "log_c": spec.log_c,
+                       "log_c": spec.log_c, "depth_range": (lo, hi),
                        "viewport": None if viewport is None else (spec.triangles.width, spec.triangles.height),
                        "fov": fov, "raster": raster, "subpixel": subpixel, "slant": tuple(slant),
                        "triangle_class": tuple(triangle_class)}
@@ -454,10 +460,13 @@ class Camera:
     def _options(self, command):
         """As options of the command, or keys of a requirement file."""
         usual = Camera.__init__.__kwdefaults__
-        taken = {"texture": ("ortho", "log_c", "rounding"), "check": ("ortho", "log_c", "rounding", "model", "arith")}
-        names = taken.get(command, ("ortho", "log_c", "rounding", "arith"))
+        taken = {"texture": ("ortho", "log_c", "rounding", "depth_range"),
+                 "check": ("ortho", "log_c", "rounding", "depth_range", "model", "arith")}
+        names = taken.get(command, ("ortho", "log_c", "rounding", "depth_range", "arith"))
         given = {name: self._given[name] for name in ("near", "far", "format", "mapping")}
         given.update({name: self._given[name] for name in names if self._given[name] != usual[name]})
+        if "depth_range" in given and command != "check":
+            given["depth_range"] = "%r:%r" % self.depth_range
         if self.viewport is not None and command not in taken:
             depth, pixels, slim = self.triangle_class
             given.update(viewport="%dx%d" % self.viewport, fov=self.fov, raster=self.raster, subpixel=self.subpixel,

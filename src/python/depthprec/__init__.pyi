@@ -61,6 +61,7 @@ class Camera:
     model: Final[_Model]
     arith: Final[str]
     log_c: Final[float]
+    depth_range: Final[tuple[float, float]]
     viewport: Final[tuple[int, int] | None]
     fov: Final[float]
     raster: Final[_Raster | None]
@@ -87,6 +88,7 @@ class Camera:
         model: _Model = "exact",
         arith: str = "ieee",
         log_c: float = 1.0,
+        depth_range: tuple[float, float] = (0.0, 1.0),
         viewport: tuple[int, int] | None = None,
         fov: float = 60.0,
         raster: _Raster | None = None,
