@@ -265,7 +265,7 @@ WEB_FROM := code/language method/choose method/estimate method/families method/i
     $(patsubst %,texture/cmd_texture/%,camera file lattice matrix products reading source)
 WEB_NOT := bias/drawn bias/cmd_bias/trial cli/words cli/questions solve/cmd_check/options solve/cmd_solve/preset world/cmd_world/options image/dds image/exr image/png image/ros image/tiff \
     camera/depth_range camera/figure_cost camera/profile_file camera/upscaler camera/cmd/depth_range camera/cmd/profile cli/junit cli/link cli/stop cli/cmd_help/completions draw/canvas draw/pixels \
-    judge/listing judge/read_pairs judge/written judge/cmd_judge/shader probe/compile probe/opengl probe/probe probe/vulkan \
+    judge/given judge/listing judge/read_pairs judge/written judge/cmd_judge/shader probe/compile probe/opengl probe/probe probe/vulkan \
     probe/vulkan_compute quantity/cmd/preset_run quantity/cmd_table/constants quantity/cmd_table/in_preset quantity/cmd_table/levels quantity/cmd_table/slices report/output_file report/terminal solve/camera \
     solve/check solve/figure_needs solve/reader solve/requirement solve/setting solve/view solve/cmd_check/check_report solve/cmd_check/command \
     raster/resolve web/plain world/figure world/cmd_world/command zfight/figure zfight/cmd_prepass/stored zfight/cmd_prepass/stored_options

@@ -9,140 +9,10 @@
 #include <string.h>
 
 #include "core/append.h"
-#include "core/elementary.h"
-#include "depthprec/depth.h"
+#include "judge/given.h"
 #include "judge/listing.h"
-#include "shader/constants.h"
 
-enum { NAME_SIZE = 64, VALUE_SIZE = 512, FLOATS_MOST = 16, BODY_SIZE = 2048 };
-
-/* ---- What a shader may be given ---------------------------------------------------------------------------------- */
-
-typedef double matrix[4][4]; /* by rows, for column vectors */
-
-/* Near, far, its inverse, orthographic; what CesiumJS has of logarithms (UniformState.js); a half; a digit. */
-static double number(const dp_setup *s, char what) {
-    const double n = s->spec.znear, f = s->spec.zfar;
-    switch (what) {
-    case 'n':
-        return n;
-    case 'f':
-        return f;
-    case 'i':
-        return 1 / f;
-    case 'o':
-        return s->spec.ortho;
-    case 'p':
-        return f - n + 1;
-    case 'l':
-        return dp_log2(f - n + 1);
-    case 'r':
-        return 1 / dp_log2(f - n + 1);
-    case 'h':
-        return 0.5;
-    default:
-        return what - '0';
-    }
-}
-
-static void fill_zbuffer(const dp_setup *s, double out[FLOATS_MOST]) {
-    const zbuffer_params p = shader_constants_of(s).zbuffer;
-    const float all[4] = {p.x, p.y, p.z, p.w};
-    for (int i = 0; i < 4; i++)
-        out[i] = (double)all[i];
-}
-
-/* Unreal's: z = x d + y + 1/(z d - w). */
-static void fill_device_z(const dp_setup *s, double out[FLOATS_MOST]) {
-    const double z0 = dp_eye(s, 0, 1), z1 = dp_eye(s, 1, 0);
-    const double ortho[4] = {z1 - z0, z0 + 1, 0, 1}, perspective[4] = {0, 0, 1 / z1 - 1 / z0, -1 / z0};
-    memcpy(out, s->spec.ortho ? ortho : perspective, sizeof ortho);
-}
-
-/* NDC depth is c0 + c1/z, orthographic c0 + c1 z. `toward`: of view z, -1 where the camera looks along -z. */
-static void projection(const dp_setup *s, double toward, bool inverse, double out[FLOATS_MOST]) {
-    const double n = s->spec.znear, z = isinf(s->spec.zfar) ? 2 * n : s->spec.zfar;
-    const double scale = dp_mapping_get(s->spec.mapping)->ndc_signed ? 2 : 1;
-    const double near = scale * dp_window(s, n) - (scale - 1), other = scale * dp_window(s, z) - (scale - 1);
-    const double c1 = (other - near) / (s->spec.ortho ? z - n : 1 / z - 1 / n);
-    const double c0 = near - (s->spec.ortho ? c1 * n : c1 / n);
-    matrix m = {{1}, {0, 1}};
-    if (s->spec.ortho) {
-        m[2][2] = inverse ? toward / c1 : toward * c1;
-        m[2][3] = inverse ? -toward * c0 / c1 : c0;
-        m[3][3] = 1;
-    } else {
-        m[2][2] = inverse ? 0 : toward * c0;
-        m[2][3] = inverse ? toward : c1;
-        m[3][2] = inverse ? 1 / c1 : toward;
-        m[3][3] = inverse ? -c0 / c1 : 0;
-    }
-    memcpy(out, m, sizeof m);
-}
-
-static void fill_projection(const dp_setup *s, double out[FLOATS_MOST]) {
-    projection(s, -1, false, out);
-}
-
-static void fill_projection_lh(const dp_setup *s, double out[FLOATS_MOST]) {
-    projection(s, 1, false, out);
-}
-
-static void fill_inverse(const dp_setup *s, double out[FLOATS_MOST]) {
-    projection(s, -1, true, out);
-}
-
-static void fill_inverse_lh(const dp_setup *s, double out[FLOATS_MOST]) {
-    projection(s, 1, true, out);
-}
-
-/* By a word; and the names by which it is guessed, without underscores and in small letters. A row without names is
- * what the one above it is in HLSL, where cameras look along +z. */
-typedef struct value_row {
-    const char *word;
-    unsigned floats;
-    const char *numbers; /* a letter each, see number() */
-    void (*fill)(const dp_setup *s, double out[FLOATS_MOST]);
-    const char *names;
-} value_row;
-
-static const value_row rows[] = {
-    {"near", 1, "n", NULL,
-     " near znear nearz cameranear unear nearplane nearclip nearclipplane ucameranear uznear unearplane nearplanez n "
-     "zn camnear virtualcameranear cameranearclip "},
-    {"far", 1, "f", NULL,
-     " far zfar farz camerafar ufar farplane farclip farclipplane ucamerafar uzfar ufarplane farplanez f zf camfar "
-     "virtualcamerafar camerafarclip "},
-    {"near_far", 2, "nf", NULL,
-     " nearfar znearfar cameranearfar unearfar unearfarplanes nearfarplanes cameraplanes clipplanes "
-     "czmcurrentfrustum "},
-    {"z_buffer_params", 4, NULL, fill_zbuffer, " zbufferparams zbufferparam "},
-    {"projection_params", 4, "1nfi", NULL, " projectionparams "},
-    {"camera_params", 4, "ifno", NULL, " cameraparams "},
-    {"inv_device_z", 4, NULL, fill_device_z, " invdeviceztoworldztransform viewinvdeviceztoworldztransform "},
-    {"projection", 16, NULL, fill_projection,
-     " projection projectionmatrix uprojection uprojectionmatrix proj projmatrix projmat cameraprojection "
-     "cameraprojectionmatrix matrixprojection unitymatrixp glstatematrixprojection czmprojection "},
-    {"projection_lh", 16, NULL, fill_projection_lh, ""},
-    {"inverse_projection", 16, NULL, fill_inverse,
-     " inverseprojection inverseprojectionmatrix projectioninverse projectionmatrixinverse invprojection invproj "
-     "invprojectionmatrix cameraprojectionmatrixinverse camerainverseprojectionmatrix unitycamerainvprojection "
-     "czminverseprojection "},
-    {"inverse_projection_lh", 16, NULL, fill_inverse_lh, ""},
-    {"log2_far_from_near", 1, "l", NULL, " czmlog2fardepthfromnearplusone "},
-    {"far_from_near", 1, "p", NULL, " czmfardepthfromnearplusone "},
-    {"one_over_log2_far_from_near", 1, "r", NULL, " czmoneoverlog2fardepthfromnearplusone "},
-    {"viewport", 4, "0011", NULL, " czmviewport "},
-    {"viewport_matrix", 16, "h00h0h0h00hh0001", NULL, " czmviewporttransformation "},
-};
-enum { ROWS = sizeof rows / sizeof rows[0] };
-
-static const value_row *row_of(const char *word) {
-    for (size_t i = 0; i < ROWS; i++)
-        if (strcmp(rows[i].word, word) == 0)
-            return &rows[i];
-    return NULL;
-}
+enum { VALUE_SIZE = 512, BODY_SIZE = 2048 };
 
 static bool number_of_text(const char *text, double *out) {
     char *end;
@@ -153,25 +23,8 @@ static bool number_of_text(const char *text, double *out) {
 bool written_define_known(const char *define) {
     const char *value = strchr(define, '=');
     double unused;
-    return value != NULL && value != define && value - define < NAME_SIZE &&
-           (row_of(value + 1) != NULL || number_of_text(value + 1, &unused));
-}
-
-/* The row that a name suggests, "camera.near" by its last word. */
-static const value_row *guess(const char *name, bool hlsl) {
-    const char *member = strrchr(name, '.');
-    char key[NAME_SIZE + 2] = " ";
-    size_t used = 1;
-    for (const char *c = member != NULL ? member + 1 : name; *c != '\0' && used < NAME_SIZE; c++)
-        if (*c != '_')
-            key[used++] = (char)tolower((unsigned char)*c);
-    key[used++] = ' ';
-    key[used] = '\0';
-    const bool unity = strncmp(key, " unity", 6) == 0 || strncmp(key, " gl", 3) == 0;
-    for (size_t i = 0; i < ROWS; i++)
-        if (strstr(rows[i].names, key) != NULL)
-            return &rows[i + (i + 1 < ROWS && rows[i + 1].names[0] == '\0' && hlsl && !unity)];
-    return NULL;
+    return value != NULL && value != define && value - define < GIVEN_NAME_SIZE &&
+           (given_find(value + 1) != NULL || number_of_text(value + 1, &unused));
 }
 
 /* ---- Its values -------------------------------------------------------------------------------------------------- */
@@ -198,7 +51,7 @@ static bool fail(maker *m, const char *format, ...) {
 
 /* The word given for a name, else the one that is guessed; null: none. */
 static const char *word_for(maker *m, piece name, bool *guessed) {
-    char text[NAME_SIZE];
+    char text[GIVEN_NAME_SIZE];
     snprintf(text, sizeof text, "%.*s", (int)name.length, name.at);
     *guessed = false;
     for (size_t i = 0; i < m->define_count; i++)
@@ -206,7 +59,7 @@ static const char *word_for(maker *m, piece name, bool *guessed) {
             m->met[i] = true;
             return m->defines[i] + strlen(text) + 1;
         }
-    const value_row *row = guess(text, m->s.hlsl);
+    const given_row *row = given_guess(text, m->s.hlsl);
     *guessed = true;
     return row != NULL ? row->word : NULL;
 }
@@ -222,20 +75,18 @@ static void say_define(written *w, piece name, const char *word, bool guessed) {
 /* The expression of a value, of a type where one is known: "float4(depthprec_v[3], ...)". */
 static bool express(maker *m, piece name, const char *word, bool guessed, piece type, char out[VALUE_SIZE]) {
     static const char *const types[2][3] = {{"vec2", "vec4", "mat4"}, {"float2", "float4", "float4x4"}};
-    const value_row *row = row_of(word);
+    const given_row *row = given_find(word);
     const unsigned floats = row != NULL ? row->floats : 1;
-    double v[FLOATS_MOST] = {0};
+    double v[GIVEN_FLOATS] = {0};
     written *w = m->out;
-    char text[NAME_SIZE];
+    char text[GIVEN_NAME_SIZE];
     if (w->used + floats >= WRITTEN_CONSTANTS)
         return fail(m, "has more than %d numbers of a camera", WRITTEN_CONSTANTS - 1);
     w->camera = w->camera || row != NULL;
-    if (row != NULL && row->fill != NULL)
-        row->fill(m->setup, v);
-    else if (row == NULL)
+    if (row != NULL)
+        given_fill(row, m->setup, v);
+    else
         number_of_text(word, &v[0]);
-    for (unsigned i = 0; row != NULL && row->numbers != NULL && i < floats; i++)
-        v[i] = number(m->setup, row->numbers[i]);
     snprintf(text, sizeof text, "%.*s", (int)type.length, type.at);
     if (floats > 1)
         snprintf(text, sizeof text, "%s", types[m->s.hlsl][floats == 2 ? 0 : floats == 4 ? 1 : 2]);
@@ -251,7 +102,7 @@ static bool express(maker *m, piece name, const char *word, bool guessed, piece 
 }
 
 static bool is_made(const maker *m, piece name) {
-    char text[NAME_SIZE + 8];
+    char text[GIVEN_NAME_SIZE + 8];
     snprintf(text, sizeof text, " %.*s ", (int)name.length, name.at);
     return strstr(m->head, text) != NULL;
 }
@@ -267,7 +118,7 @@ static void define_macros(maker *m) {
         for (piece word; s->items[k].kept && listing_word(&at, s->items[k].to, &word, &open);) {
             const bool unity = piece_is(word, "UNITY_REVERSED_Z");
             bool guessed;
-            if (!listing_in_condition(s, word) || !listing_matters(s, &s->items[k]) || word.length >= NAME_SIZE ||
+            if (!listing_in_condition(s, word) || !listing_matters(s, &s->items[k]) || word.length >= GIVEN_NAME_SIZE ||
                 piece_is_any(word, own) || strncmp(word.at, "GL_", 3) == 0 || is_made(m, word) ||
                 listing_declares(s, word))
                 continue;
@@ -285,14 +136,14 @@ static void define_macros(maker *m) {
 
 /* A member of a structure that the camera is in. */
 static bool make_member(maker *m, piece of, piece member) {
-    char whole[2 * NAME_SIZE], made[2 * NAME_SIZE + 8], value[VALUE_SIZE];
+    char whole[2 * GIVEN_NAME_SIZE], made[2 * GIVEN_NAME_SIZE + 8], value[VALUE_SIZE];
     bool guessed;
     snprintf(whole, sizeof whole, "%.*s.%.*s", (int)of.length, of.at, (int)member.length, member.at);
     snprintf(made, sizeof made, " %s = ", whole);
     const piece name = {whole, strlen(whole)};
     if (strstr(m->body, made) != NULL)
         return true;
-    const char *word = name.length < NAME_SIZE ? word_for(m, name, &guessed) : NULL;
+    const char *word = name.length < GIVEN_NAME_SIZE ? word_for(m, name, &guessed) : NULL;
     if (word == NULL)
         return fail(m, "reads %s, which nothing is known of: --define %s=near|far|z_buffer_params|projection|NUMBER",
                     whole, whole);
@@ -341,7 +192,8 @@ static bool make_variables(maker *m) {
         for (piece word; i->kept && i->kind != ITEM_STRUCTURE && listing_word(&at, i->to, &word, &open);) {
             char value[VALUE_SIZE];
             bool guessed;
-            if (word.length >= NAME_SIZE || *listing_before(i->from, word.at) == '.' || listing_in_condition(s, word))
+            if (word.length >= GIVEN_NAME_SIZE || *listing_before(i->from, word.at) == '.' ||
+                listing_in_condition(s, word))
                 continue;
             const bool known = listing_item_declares(i, word, true) || is_made(m, word) || listing_declares(s, word);
             const char *text = known ? NULL : word_for(m, word, &guessed);
@@ -380,7 +232,7 @@ static bool take_parameter(maker *m, const char *from, const char *to, bool *has
     bool guessed;
     from += strspn(from, " \t\r\n");
     read_parameter(from, to, &type, &name);
-    const char *word = name.length > 0 && name.length < NAME_SIZE ? word_for(m, name, &guessed) : NULL;
+    const char *word = name.length > 0 && name.length < GIVEN_NAME_SIZE ? word_for(m, name, &guessed) : NULL;
     const item *structure = word == NULL ? listing_structure(&m->s, type) : NULL;
     if (structure != NULL) {
         append(m->body, sizeof m->body, "    %.*s %.*s;\n", (int)type.length, type.at, (int)name.length, name.at);
@@ -459,8 +311,8 @@ static bool write_text(maker *m, const char *function, unsigned turns) {
                                "    uint depthprec_i = depthprec_id.x;\n%s";
     char run[BODY_SIZE];
     write_run(m->out, turns, run);
-    const size_t size = strlen(m->s.text) + sizeof m->head + sizeof m->body + sizeof m->call + NAME_SIZE + sizeof run +
-                        sizeof glsl + sizeof hlsl;
+    const size_t size = strlen(m->s.text) + sizeof m->head + sizeof m->body + sizeof m->call + GIVEN_NAME_SIZE +
+                        sizeof run + sizeof glsl + sizeof hlsl;
     for (const char *c = m->s.text; *c != '\0'; c++)
         m->out->lines += *c == '\n';
     listing_blank_rest(&m->s);
