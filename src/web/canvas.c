@@ -124,12 +124,6 @@ void canvas_path_break(canvas *c) {
     c->moved = false;
 }
 
-void canvas_path_segment(canvas *c, double x0, double y0, double x1, double y1) {
-    canvas_path_break(c);
-    canvas_path_to(c, x0, y0);
-    canvas_path_to(c, x1, y1);
-}
-
 void canvas_path_end(canvas *c, const canvas_pen *pen) {
     begin_path(c);
     fputs("\" fill=\"none\"", c->stream);
@@ -151,25 +145,6 @@ void canvas_fill(canvas *c, canvas_rect area, canvas_colour colour) {
     put_area(c, area);
     paint(c, "fill", colour);
     fputs("/>\n", c->stream);
-}
-
-static void outline(canvas *c, const canvas_point *points, size_t count) {
-    for (size_t i = 0; i < count; i++)
-        canvas_path_to(c, points[i].x, points[i].y);
-}
-
-void canvas_polygon(canvas *c, const canvas_point *points, size_t count, canvas_colour colour) {
-    outline(c, points, count);
-    canvas_path_fill(c, colour);
-}
-
-void canvas_line(canvas *c, const canvas_point *points, size_t count, const canvas_pen *pen) {
-    outline(c, points, count);
-    canvas_path_end(c, pen);
-}
-
-void canvas_segment(canvas *c, double x0, double y0, double x1, double y1, const canvas_pen *pen) {
-    canvas_line(c, (canvas_point[]){{x0, y0}, {x1, y1}}, 2, pen);
 }
 
 void canvas_disc(canvas *c, double x, double y, double radius, canvas_colour fill, const canvas_pen *rim) {
