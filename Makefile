@@ -266,7 +266,7 @@ WEB_FROM := code/language method/choose method/estimate method/families method/i
 WEB_NOT := bias/drawn bias/cmd_bias/trial cli/words cli/questions solve/cmd_check/options solve/cmd_solve/preset world/cmd_world/options image/dds image/exr image/png image/ros image/tiff \
     camera/depth_range camera/figure_cost camera/profile_file camera/upscaler camera/cmd/depth_range camera/cmd/profile cli/junit cli/link cli/stop cli/cmd_help/completions draw/canvas draw/pixels \
     judge/given judge/listing judge/read_pairs judge/written judge/cmd_judge/shader probe/compile probe/opengl probe/probe probe/vulkan \
-    probe/vulkan_compute quantity/cmd/preset_run quantity/cmd_table/constants quantity/cmd_table/in_preset quantity/cmd_table/levels quantity/cmd_table/slices report/output_file report/terminal solve/camera \
+    probe/vulkan_compute probe/vulkan_draw quantity/cmd/preset_run quantity/cmd_table/constants quantity/cmd_table/in_preset quantity/cmd_table/levels quantity/cmd_table/slices report/output_file report/terminal solve/camera \
     solve/check solve/figure_needs solve/reader solve/requirement solve/setting solve/view solve/cmd_check/check_report solve/cmd_check/command \
     raster/resolve web/plain world/figure world/cmd_world/command zfight/figure zfight/cmd_prepass/stored zfight/cmd_prepass/stored_options
 WEB_SOURCES := $(sort $(filter-out $(patsubst %,src/%.c,$(patsubst %,%/%,$(WEB_LESS)) $(WEB_NOT)),$(CORE) $(ROOMS) $(wildcard src/web/*.c)) \
@@ -331,7 +331,7 @@ npm:
 	@$(MAKE) $(PARALLEL) $(B)/dist/depthprec-$(VERSION).tgz
 
 NPM_NOT := $(patsubst %,src/%.c,draw/canvas draw/pixels image/png method/cmd_methods/command method/cmd_methods/families cli/stop texture/strips \
-    probe/opengl probe/vulkan probe/vulkan_compute probe/compile \
+    probe/opengl probe/vulkan probe/vulkan_compute probe/vulkan_draw probe/compile \
     report/output_file report/terminal system/dynload system/pager system/sandbox)
 NPM_O := $(call web_objects,$(filter-out $(NPM_NOT),$(ROOMS)) $(patsubst %,src/web/%.c,canvas engine plain still stream) \
     src/npm/standin.c)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/** @file vulkan.h  For this room alone: a device that is open, of which vulkan.c draws and vulkan_compute.c computes.
- */
+/** @file vulkan.h  For this room alone: a device that vulkan.c opens, on which vulkan_draw.c draws and vulkan_compute.c
+ * computes. */
 #ifndef PROBE_VULKAN_H
 #define PROBE_VULKAN_H
 
@@ -110,6 +110,13 @@ bool vulkan_good(gpu *g, VkResult result, const char *what);
 
 /** Finds the device that is wanted and opens it. */
 bool vulkan_open(gpu *g, const char *wanted);
+
+/** The first depth format of those for `asked` that the device has and that a draw can be copied from, and its name;
+ * VK_FORMAT_UNDEFINED where it has none. */
+VkFormat vulkan_format(const gpu *g, VkPhysicalDevice physical, shot_format asked, char name[SHOT_NAME_SIZE]);
+
+/** Memory with these flags. */
+bool vulkan_allocate(gpu *g, const VkMemoryRequirements *need, VkMemoryPropertyFlags flags, VkDeviceMemory *out);
 
 /** A buffer of BUFFER_BYTES that this process sees, too. */
 bool vulkan_make_buffer(gpu *g, VkBufferUsageFlags usage, VkBuffer *out, void **at);
