@@ -8,17 +8,16 @@
 
 #include "camera/cmd/each_setup.h"
 #include "camera/cmd/slant.h"
-#include "core/append.h"
 #include "core/engine.h"
 #include "method/ways.h"
 #include "quantity/cmd/choice.h"
-#include "quantity/cmd/resolved.h"
 #include "quantity/cmd_table/compare.h"
 #include "quantity/cmd_table/constants.h"
 #include "quantity/cmd_table/in_preset.h"
 #include "quantity/cmd_table/levels.h"
 #include "quantity/cmd_table/lookup.h"
 #include "quantity/cmd_table/per_vertex.h"
+#include "quantity/cmd_table/reach.h"
 #include "quantity/cmd_table/request.h"
 #include "quantity/cmd_table/slices.h"
 #include "report/number.h"
@@ -56,12 +55,6 @@ typedef struct worst {
     int digits;   /* that show where the interval ends */
 } worst;
 
-/* A separation, and the depths up to which it is guaranteed; NaN: not even at near, or nothing is at a slant. */
-typedef struct reach {
-    double separation, facing, any_slant;
-    double from, to; /* the numbers of the preset that keep it */
-} reach;
-
 /* The state of a table; the fields below the range are of the set-up at hand. */
 typedef struct table {
     each_setup each;
@@ -79,7 +72,7 @@ typedef struct table {
     per_vertex_worst written;
     char at_slant[NUMBER_SIZE + 4]; /* "at any slant" */
     double uncertain; /* the nearest depth shown before far whose guarantee is more than is left up to far; NaN: none */
-    reach reach[RESOLVED_LIMITS];
+    reached reached;
     in_preset in_preset;
     const dp_triangles *assumed; /* the view of those at a slant; null where it was given, or there is none */
     choosing choice;
@@ -150,20 +143,9 @@ static const dp_setup *any_slant(const table *t) {
                                                       : NULL;
 }
 
-static void find_reach(table *t) {
-    const unit_row *unit = t->each.here->lengths.unit;
-    double facing[RESOLVED_LIMITS], slanted[RESOLVED_LIMITS] = {(double)NAN, (double)NAN, (double)NAN};
-    resolved_up_to(&t->each.full, unit, facing);
-    if (any_slant(t) != NULL)
-        resolved_up_to(any_slant(t), unit, slanted);
-    t->assumed = t->each.assumed.spec.triangles.width > 0 ? &t->each.assumed.spec.triangles : NULL;
-    for (size_t i = 0; i < RESOLVED_LIMITS; i++)
-        t->reach[i] = (reach){resolved_limit(i, unit), facing[i], slanted[i], t->in_preset.from[i], t->in_preset.to[i]};
-}
-
 static void *next_reach(void *of, size_t i) {
     table *t = of;
-    return i < RESOLVED_LIMITS ? &t->reach[i] : NULL;
+    return i < RESOLVED_LIMITS ? &t->reached.of[i] : NULL;
 }
 
 static void *next_setup(void *of, size_t i) {
@@ -183,7 +165,8 @@ static void *next_setup(void *of, size_t i) {
         t->interval = way_choose(setup, o->camera.tolerance, has_cut_cells(t, setup));
     if (o->out.form == FORM_CSV)
         return t;
-    find_reach(t);
+    reach_find(&t->each.full, any_slant(t), t->each.here->lengths.unit, &t->in_preset, &t->reached);
+    t->assumed = t->each.assumed.spec.triangles.width > 0 ? &t->each.assumed.spec.triangles : NULL;
     t->worst_case = (worst){.digits = 0};
     dp_worst_over(setup, t->lo, t->hi, &t->worst_case.of);
     t->worst_case.codes = fabs((double)dp_code(setup, t->hi) - (double)dp_code(setup, t->lo)) + 1.0;
@@ -199,35 +182,6 @@ static void *next_setup(void *of, size_t i) {
 
 /* ---- Text -------------------------------------------------------------------------------------------------------- */
 
-/* "1 mm up to z = 31.9 m, 1 cm up to the far plane"; a separation wider than one that holds everywhere goes without
- * saying. @return out, "" where nothing is guaranteed */
-static const char *reach_text(const table *t, bool facing, char out[RESOLVED_TEXT_SIZE]) {
-    const unit_row *unit = t->each.here->lengths.unit;
-    const double zfar = t->each.full.spec.zfar;
-    char text[RESOLVED_TEXT_SIZE];
-    double up_to = (double)NAN;
-    *out = '\0';
-    for (size_t i = 0; i < RESOLVED_LIMITS && !(up_to >= zfar); i++) {
-        up_to = facing ? t->reach[i].facing : t->reach[i].any_slant;
-        if (!isnan(up_to))
-            append(out, RESOLVED_TEXT_SIZE, "%s %s up to %s%s", *out != '\0' ? "," : "",
-                   resolved_limit_text(i, unit).text, up_to < zfar ? "z = " : "",
-                   resolved_text(zfar, up_to, unit, text));
-    }
-    return out;
-}
-
-/* How far one can trust the set-up; the second of two begins in its own words. */
-static void say_reach_of(page *p, const table *t, bool facing, const char *which, const char *begin) {
-    char said[RESOLVED_TEXT_SIZE];
-    if (*reach_text(t, facing, said) != '\0')
-        page_text(p, "%s%s:%s.", begin != NULL ? "" : "Guaranteed to be resolved ", begin != NULL ? begin : which,
-                  said);
-    else
-        page_text(p, "%s is not guaranteed to be resolved %s, even at the near plane.",
-                  resolved_limit_text(RESOLVED_LIMITS - 1, t->each.here->lengths.unit).text, which);
-}
-
 /* The answer first: at any slant, then of surfaces that face the camera, which the columns are of. */
 static void say_reach(page *p, void *item) {
     const table *t = item;
@@ -238,9 +192,9 @@ static void say_reach(page *p, void *item) {
         return;
     snprintf(where, sizeof where, "at any slant (%s)", slant_assumed(&t->each.assumed.spec.triangles, view));
     if (any_slant(t) != NULL)
-        say_reach_of(p, t, false, each_setup_slanted(&t->each) ? t->at_slant : where, NULL);
-    say_reach_of(p, t, true, SLANT_FACING ", " SLANT_AS_WALL,
-                 any_slant(t) != NULL ? "Facing the camera, " SLANT_AS_WALL : NULL);
+        reach_say(p, &t->reached, false, each_setup_slanted(&t->each) ? t->at_slant : where, NULL);
+    reach_say(p, &t->reached, true, SLANT_FACING ", " SLANT_AS_WALL,
+              any_slant(t) != NULL ? "Facing the camera, " SLANT_AS_WALL : NULL);
     if (t->in_preset.parameter != NULL)
         page_text(p, "Where %s looks, %s: %s.", t->o->camera.presets[0]->name,
                   each_setup_slanted(&t->each) ? t->at_slant : SLANT_FACING,
