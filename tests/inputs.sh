@@ -86,6 +86,20 @@ left_alone() { # left_alone INPUT LINE
         cp before "$1" && ln -f "$1" "hard$end" && ln -sf "$1" "soft$end"
     done
 }
+# "-" is stdout, also beside a file of that name, which is a file by any other spelling.
+to_stdout() {
+    for made in 'scene house.gltf -o - --emit-need @' 'scene house.gltf -o @ --emit-need -'; do
+        rm -f ./- own
+        run "$made" own && mv out alone && [ -s own ] && [ -s alone ] || { cat err && return 1; }
+        for there in 1 2; do # not yet there, then written anew
+            run "$made" ./- && cmp out alone && cmp ./- own || { echo "$made, $there:" && cat err && return 1; }
+        done
+    done
+    cp house.gltf ./-
+    run 'scene ./- -o -' && [ -s out ] && cmp ./- house.gltf || { cat err && return 1; }
+    rm ./-
+}
+check "an output to stdout is no file, whatever is named -" to_stdout
 while IFS='|' read -r input made; do
     input=${input% } made=${made# }
     case $input in *.npy | *.png) end=.${input##*.} ;; *) end= ;; esac

@@ -19,20 +19,26 @@ static int run(const asked_line *line) {
     return option_given(line, "link") ? link_write(line) : runs[i](line->request);
 }
 
-/* An option's file is written: it may be no other option's and none that the command reads. "-" is no file. */
+/* The file that an option names for writing, or null. "-" is none, whatever lies in the folder. */
+static const char *file_of(const asked_line *line, const char *name) {
+    const char *path = option_written(line, name);
+    return path != NULL && strcmp(path, "-") != 0 ? path : NULL;
+}
+
+/* An option's file is written: it may be no other option's and none that the command reads. */
 static int refuse_overwriting(const asked_line *line) {
     const option_row *all[OPTIONS_MAX + 1];
     for (int k = line->command->files_from; k > 0 && k <= line->operand_count; k++)
         input_expect(line->operands[k - 1]);
     options_all(all);
     for (size_t i = 0; all[i] != NULL; i++) {
-        const char *name = all[i]->name, *path = option_written(line, name);
-        if (path == NULL || strcmp(path, "-") == 0)
+        const char *name = all[i]->name, *path = file_of(line, name);
+        if (path == NULL)
             continue;
         if (input_is_read(path))
             return option_error(name, "must not be a file that is read, got '%s'", path);
         for (size_t k = 0; k < i; k++) {
-            const char *other = all[k]->name, *also = option_written(line, other);
+            const char *other = all[k]->name, *also = file_of(line, other);
             const bool beside = strcmp(name, "output") == 0; /* the file beside the output is at fault */
             if (also != NULL && strcmp(other, name) != 0 && output_same_file(path, also))
                 return option_error(beside ? other : name, "must not be the file of --%s, got '%s'",

@@ -81,8 +81,9 @@ static const char *const lines[] = {
     "completions tcsh",
 };
 
-/* Runs a command on a terminal of so many columns. @return what came there, to be freed */
-static char *on_terminal(const char *line, unsigned short columns) {
+/* Runs a command on a terminal of so many columns, through a pager unless that is "". @return what came there, to be
+ * freed */
+static char *on_terminal(const char *line, unsigned short columns, const char *pager) {
     const char *program = getenv("DEPTHPREC");
     char command[1024];
     snprintf(command, sizeof command, "%s %s", program != NULL ? program : "build/depthprec", line);
@@ -95,7 +96,7 @@ static char *on_terminal(const char *line, unsigned short columns) {
     const pid_t child = fork();
     if (child == 0) {
         setenv("TERM", "dumb", 1);
-        setenv("PAGER", "", 1); /* which would wait for its reader */
+        setenv("PAGER", pager, 1); /* less would wait for its reader */
         dup2(terminal, STDOUT_FILENO);
         dup2(terminal, STDERR_FILENO);
         close(terminal);
@@ -120,7 +121,7 @@ static char *on_terminal(const char *line, unsigned short columns) {
 
 /* Progress is drawn over itself, and erases what is behind it. */
 static void check_widths(tally *t, const char *line, int columns) {
-    char *text = on_terminal(line, (unsigned short)columns);
+    char *text = on_terminal(line, (unsigned short)columns, "");
     size_t widest = 0;
     TALLY(t, text[0] != '\0' && strstr(text, "not found") == NULL, "%s: %s", line, text);
     for (const char *at = text; *at != '\0';) {
@@ -162,9 +163,27 @@ TEST(all_commands) {
     }
 }
 
+/* Through a pager, too, lines are as long as the terminal has columns, and none that are shorter fit. */
+TEST(pagers_are_as_wide) {
+    static const int widths[] = {40, 80, 120};
+    for (size_t k = 0; k < sizeof widths / sizeof widths[0]; k++) {
+        char *direct = on_terminal("help table", (unsigned short)widths[k], "");
+        char *paged = on_terminal("help table", (unsigned short)widths[k], "sed s/^/@/");
+        char *from = paged, *to = paged; /* without the marks of the pager's own */
+        assert_true(*from == '@');
+        for (; *from != '\0'; from++)
+            if (*from != '@' || (from > paged && from[-1] != '\n'))
+                *to++ = *from;
+        *to = '\0';
+        assert_string_equal(paged, direct);
+        free(direct);
+        free(paged);
+    }
+}
+
 /* A command that is broken can be typed as it stands; what is no terminal keeps its lines. */
 TEST(broken_commands) {
-    char *text = on_terminal("help bias", 40);
+    char *text = on_terminal("help bias", 40, "");
     assert_non_null(strstr(text, "  depthprec bias --api gl -F d24 -m gl \\\r\n    --units -1 --at 1,10,100\r\n"));
     assert_non_null(strstr(text, "\n  -n, --near Z\r\n    near plane; "));
     free(text);

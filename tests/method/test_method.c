@@ -45,6 +45,36 @@ TEST(every_row_is_whole) {
     assert_null(method_family_find("areas"));
 }
 
+/* Ranges to be searched lie in the view. In each four one is the whole view and one ends at far alone; the others are
+ * between two depths, at no plane, and no two are alike. */
+TEST(ranges_of_worst) {
+    const method_family_row *family = method_family_find("worst");
+    for (size_t which = 0; which < family->case_count; which++)
+        for (int k = 0; k < 3; k++) {
+            dp_spec spec = {.mapping = family->cases[which].mapping, .znear = 0.1};
+            spec.zfar = k == 0 ? 1000.0 : k == 1 ? 0.4 : INFINITY;
+            dp_format format[2];
+            assert_int_equal(dp_format_parse(family->cases[which].format, format), 1);
+            spec.format = format[0];
+            method_inputs in;
+            method_outputs out;
+            dp_setup setup;
+            if (dp_setup_init(&setup, &spec) != DP_OK)
+                continue;
+            assert_true(method_arrays(family->inputs, &in, &out));
+            family->fill(&setup, &in);
+            const double f = k == 2 ? 0.1 * METHOD_INFINITE_FAR : spec.zfar;
+            for (size_t i = 0; i < in.count; i++) {
+                const bool near = in.z[i] == 0.1, far = in.hi[i] == f;
+                assert_true(in.z[i] >= 0.1 && in.hi[i] <= f && in.z[i] < in.hi[i]);
+                assert_true(near == (i % 4 == 0) && far == (i % 4 <= 1));
+                for (size_t j = 0; j < i && !near; j++)
+                    assert_true(in.z[j] != in.z[i]);
+            }
+            method_arrays_free(&in, &out);
+        }
+}
+
 /* A method that only --full shows is beaten in each case by one that costs less and claims no more, at any far/near. */
 TEST(those_behind_are_beaten) {
     int behind = 0;

@@ -425,6 +425,34 @@ TEST(test_functions) {
     probe_free(&r);
 }
 
+/* Tiles that tell one bias from another: without slope the first numbers of a binade, the second ones and others, of
+ * which the largest depth and that of the pixel have one exponent; slanted ones of either sign, steeper in x and in y.
+ * In 16 bits all flat ones lie a quarter above a code. */
+TEST(test_tiles) {
+    for (int f = 0; f < SHOT_FORMATS; f++) {
+        unsigned whole[3] = {0}, slanted[2][2][2] = {{{0}}}, flat = 0;
+        for (int i = 0; i < PLAN_TILES; i++) {
+            const plan_tile t = plan_tile_of((shot_format)f, i);
+            int exponent;
+            const double part = 2.0 * frexp((double)t.z, &exponent);
+            if (t.slope_x != 0.0F && t.slope_y != 0.0F) {
+                slanted[fabsf(t.slope_x) > fabsf(t.slope_y)][t.slope_x > 0.0F][t.slope_y > 0.0F]++;
+                continue;
+            }
+            assert_true(t.slope_x == 0.0F && t.slope_y == 0.0F && t.z > 0.0F && t.z < 1.0F);
+            flat++;
+            whole[part == 1.0 ? 0 : part == 1.0 + 0x1p-23 ? 1 : 2]++;
+            if (f == SHOT_D16)
+                assert_true(fabs(fmod((double)t.z * 65535.0, 1.0) - 0.25) <= 0x1p-8);
+        }
+        assert_int_equal(flat, PLAN_TILES / 4 * 3);
+        for (int i = 0; i < 8; i++)
+            assert_true((&slanted[0][0][0])[i] > 0);
+        for (int i = 0; i < 3 && f == SHOT_D32F; i++)
+            assert_int_equal(whole[i], PLAN_TILES / 4);
+    }
+}
+
 /* The hits of hypotheses are given: which is found, what is said of it, and which comes next. */
 TEST(test_guesses) {
     static const struct {

@@ -129,6 +129,39 @@ TEST(any_bits) {
     tally_end(&spans);
 }
 
+/* A triangle whose vertices all lie beyond one plane, if only by the last bit, is not drawn, although the vertices that
+ * other planes cut it at are rounded: those of a triangle around the whole target all are. */
+TEST(beyond_one_plane) {
+    rng r = rng_make("beyond one plane");
+    tally t = {.name = "triangles beyond one plane"};
+    for (size_t row = 0; row < raster_table.count && raster_get(row)->model != NULL; row++)
+        for (uint64_t n = test_cases(500, 2000, 8000); n > 0; n--) {
+            const int plane = (int)rng_below(&r, 6);
+            raster_triangle drawn;
+            raster_vertex v[3];
+            for (int i = 0; i < 3; i++) {
+                const float w = (float)rng_log(&r, 0.5, 8), beyond = nextafterf(w, 9);
+                const float x = (float)((i == 0 ? 0.0 : i == 1 ? -1.0 : 1.0) * rng_uniform(&r, 4, 9)) * w;
+                const float y = (float)((i == 0 ? 1.0 : -1.0) * rng_uniform(&r, 4, 9)) * w;
+                const float z = (float)rng_uniform(&r, -2, 3) * w;
+                v[i] = (raster_vertex){plane == 0   ? beyond
+                                       : plane == 1 ? -beyond
+                                                    : x,
+                                       plane == 2   ? beyond
+                                       : plane == 3 ? -beyond
+                                                    : y,
+                                       plane == 4   ? -0x1p-149F
+                                       : plane == 5 ? beyond
+                                                    : z,
+                                       w};
+            }
+            const raster_status status = status_of(raster_get(row)->name, v, &drawn);
+            TALLY(&t, status == RASTER_EMPTY, "%s, plane %d: status %d, %a %a %a", raster_get(row)->name, plane,
+                  (int)status, (double)v[0].w, (double)v[1].w, (double)v[2].w);
+        }
+    tally_end(&t);
+}
+
 /* ---- Behind the eye ---------------------------------------------------------------------------------------------- */
 
 static long double det3(const long double m[3][3]) {

@@ -304,6 +304,37 @@ TEST(packed_normals) {
     tally_end(&t);
 }
 
+/* Every texel, and the normals of its square, by the formula above: rounded within half a step each way, cut less than
+ * a step below. The bound holds at the corners and inside, and in the middle of the disc it is nearly reached. */
+TEST(packed_normals_reach) {
+    tally t = {.name = "reaches of packed normals"};
+    rng r = rng_make("reaches of packed normals");
+    for (int truncated = 0; truncated < 2; truncated++) {
+        double used = 0;
+        for (int x = 0; x < 256; x++)
+            for (int y = 0; y < 256; y++) {
+                const uint8_t texel[2] = {(uint8_t)x, (uint8_t)y};
+                const double reach = packing_normal_reach(texel, truncated != 0);
+                double mid[3];
+                packing_normal(texel, mid);
+                for (int corner = 0; corner < 5; corner++) {
+                    double v[2];
+                    for (int k = 0; k < 2; k++) {
+                        const double part = corner < 4 ? (corner >> k & 1) : rng_unit(&r);
+                        v[k] = ((texel[k] + (truncated ? part : part - 0.5)) / 255.0 * 2 - 1) * 1.7777;
+                    }
+                    const double g = 2 / (v[0] * v[0] + v[1] * v[1] + 1);
+                    const double apart = fabs(g * v[0] - mid[0]) + fabs(g * v[1] - mid[1]);
+                    used = fmax(used, apart / reach);
+                    TALLY(&t, apart <= reach, "%d,%d%s: %g, bound %g", x, y, truncated ? " cut" : "", apart, reach);
+                }
+            }
+        printf("# %s: %.3f of the reach is used\n", truncated ? "cut" : "rounded", used);
+        assert_true(used > 0.9);
+    }
+    tally_end(&t);
+}
+
 /* ---- Samples that are none ----------------------------------------------------------------------------------------*/
 
 enum { SIDE = 64 };
