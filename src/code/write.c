@@ -139,7 +139,7 @@ void code_expression(const code_writer *w, int index, int outer, char *out) {
                : tight && own == OF_PRODUCT ? "%s"
                                             : " %s ",
                operators[of->kind].sign);
-        code_expression(w, of->of[1], own + (of->kind == STEPS_DIFFERENCE || of->kind == STEPS_QUOTIENT), out);
+        code_expression(w, of->of[1], own + 1, out); /* a sum of other order is rounded otherwise */
         append(out, CODE_TEXT_SIZE, inside ? ")" : "");
     }
 }

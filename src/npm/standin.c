@@ -96,9 +96,7 @@ int output_close(output *out) {
     output_flush(out);
     if (out->fd != STDOUT_FILENO && close(out->fd) != 0 && out->error == 0)
         out->error = errno;
-    if (out->error == 0 || out->error == EPIPE)
-        return out->error == 0 ? EXIT_FINE : EXIT_IO;
-    return cannot_write(out, out->error);
+    return out->error == 0 ? EXIT_FINE : cannot_write(out, out->error);
 }
 
 bool output_same_file(const char *a, const char *b) {

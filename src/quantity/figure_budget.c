@@ -115,12 +115,9 @@ static void add_panel(const figure_request *request, chart *out, size_t i) {
         snprintf(panel->title, sizeof panel->title, "%s", request->names[i]);
     refine_request q = envelope_request(request, split.setup, out, panel, sample, &split);
     for (int layer = 0; layer < DP_CAUSE_COUNT; layer++)
-        if (counts(split.setup, &request->terms, stack[layer])) {
-            q.axis[split.count] = panel->y;
+        if (counts(split.setup, &request->terms, stack[layer]))
             split.layer[split.count++] = layer;
-        }
     split.certain_to = guaranteed_certain_to(&q, split.setup, separation_at, &split);
-    q.axis[split.count] = panel->second;
     q.values = split.count + 1;
     if (!refine_begin(&r, &q, out))
         return;

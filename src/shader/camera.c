@@ -86,7 +86,7 @@ const char *camera_init(texture_camera *camera, const dp_setup *setup, const cam
         .half = {half_height * spec->width / spec->height, half_height},
         .axis = {{cy, 0, -sy}, {-sp * sy, cp, -sp * cy}, {cp * sy, sp, cp * cy}},
         .origin = {spec->origin[0], spec->origin[1], spec->origin[2]},
-        .radial = spec->radial && !ortho,
+        .radial = spec->radial,
     };
     if (spec->matrix != NULL) {
         const dp_projection *p = spec->matrix;

@@ -32,7 +32,7 @@ typedef struct camera_spec {
     double yaw, pitch;           /**< degrees: to the right, then up; 0, 0 looks along the world's z axis */
     double origin[3];            /**< where the camera stands, world coordinates, each at most 1e12 in magnitude */
     const dp_projection *matrix; /**< says what fov_y and half_height would; or null */
-    bool radial;                 /**< depths of the set-up are distances along the rays; perspective */
+    bool radial;                 /**< depths of the set-up are distances along the rays; perspective alone */
 } camera_spec;
 
 /** 60 degrees, half height 5, looking along z from the origin; width and height 0: to be filled in. */

@@ -456,6 +456,30 @@ TEST(test_digits_of_planes) {
     check_says(2, "got 0.99999951 and 1\n", "table --depth-range 0.99999951:1");
 }
 
+/* Of what has two sides each is held to its limits by itself, and either may reach them. */
+static const struct {
+    const char *line, *option;
+    int least[2], most[2];
+} sides[] = {
+    {"shadow --size", "size", {11, 11}, {32768, 32768}},
+    {"texture --synthetic plane -F d16 --json --size", "size", {1, 1}, {65536, 65536}},
+    {"table --at 5 --viewport", "viewport", {1, 1}, {32768, 32768}},
+    {"plot share -F fp16 -m d3d --csv --figure-size", "figure-size", {320, 200}, {8192, 8192}},
+};
+
+TEST(each_side_has_its_limits) {
+    for (size_t i = 0; i < sizeof sides / sizeof sides[0]; i++)
+        for (int k = 0; k < 8; k++) {
+            const int wrong = k < 4, which = k / 2 % 2;
+            int size[2] = {sides[i].least[0], sides[i].least[1]};
+            size[which] = k % 2 ? sides[i].most[which] + wrong : sides[i].least[which] - wrong;
+            printed p = print_of("%s %dx%d", sides[i].line, size[0], size[1]);
+            if (p.status != (wrong ? 2 : 0) || (wrong && strstr(p.errors, sides[i].option) == NULL))
+                fail_msg("%s %dx%d: exit status %d, %s", sides[i].line, size[0], size[1], p.status, p.errors);
+            printed_free(&p);
+        }
+}
+
 /* A range needs two binary32 depths in it: those between the middles of their neighbours, none, one or two. */
 TEST(test_depths_of_a_range) {
     static const struct {

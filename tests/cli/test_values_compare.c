@@ -172,8 +172,51 @@ static void check_verdicts(tally *t, const camera *c, const char *text, const ch
     TALLY(t, strstr(flat, want) != NULL, "'%s' is not said: %s", want, flat);
 }
 
+/* Up to where 0.01 is resolved, as sentences have it. */
+static const char *limit_of(const camera *c, const words *row) {
+    const char *word = row->word[row->count - 3];
+    return strtod(word, NULL) >= c->zfar - 0.01 * fabs(c->zfar) ? "the far plane" : word;
+}
+
+/* Of each row the first depth shown before far from which on less is left up to far than what is guaranteed; and what
+ * reversing gains is what both rows say. @return sentences' parts that were judged */
+static int check_more(tally *t, const camera *c, const char *text, const words *rows, size_t count) {
+    char flat[4096], want[160];
+    int parts = 0;
+    flatten(text, flat, sizeof flat);
+    for (size_t i = 0; i < count; i++) {
+        const words *w = &rows[i];
+        const dp_setup setup = full_setup(c, w->word[0], w->word[1]);
+        int k = 0;
+        while (k < c->depths && (c->z[k] >= c->zfar || dp_separation(&setup, c->z[k]) <= c->zfar - c->z[k]))
+            k++;
+        snprintf(want, sizeof want, " %s %s from z = ", w->word[0], w->word[1]);
+        const char *at = strstr(flat, "Nothing behind is certain, up to far:");
+        at = at != NULL ? strstr(at, want) : NULL;
+        const double z = at != NULL ? strtod(at + strlen(want), NULL) : NAN;
+        TALLY(t, k < c->depths ? z == c->z[k] : isnan(z), "%s:%sis %g, not %g", c->options, want, z,
+              k < c->depths ? c->z[k] : NAN);
+        parts += k < c->depths;
+        for (size_t j = 0; j < count; j++) {
+            const char *before = limit_of(c, w), *after = limit_of(c, &rows[j]);
+            snprintf(want, sizeof want, "%sreversed", strcmp(w->word[1], "gl") == 0 ? "gl-" : "");
+            if ((strcmp(w->word[1], "gl") != 0 && strcmp(w->word[1], "d3d") != 0) ||
+                strcmp(rows[j].word[1], want) != 0 || strcmp(rows[j].word[0], w->word[0]) != 0 ||
+                strncmp(w->word[0], "fp16", 4) == 0 || *before == '-')
+                continue;
+            snprintf(want, sizeof want, strcmp(before, after) == 0 ? " %s %s not at all" : " %s %s from %s to %s",
+                     w->word[0], w->word[1], before, after);
+            at = strstr(flat, "Reversing moves the limit for 0.01:");
+            TALLY(t, at != NULL && strstr(at, want) != NULL, "%s:%s is not said: %s", c->options, want, flat);
+            parts++;
+        }
+    }
+    return parts;
+}
+
 TEST(test_comparison) {
     tally t = {.name = "comparison"};
+    int parts = 0;
     for (size_t i = 0; i < sizeof cameras / sizeof cameras[0]; i++) {
         const camera *c = &cameras[i];
         printed p = print_of("table %s", c->options);
@@ -185,20 +228,23 @@ TEST(test_comparison) {
         check_titles(&t, c, &titles);
         const char *rows = line = next_line(line);
         double before = HUGE_VAL;
+        words all[16];
         size_t count = 0;
         for (; *line != '\n' && *line != '\0'; line = next_line(line), count++) {
-            const words w = split(line);
+            const words w = all[count] = split(line);
             check_row(&t, c, &w, before);
             before = fmin(before, strtod(w.word[2 + c->depths + 1], NULL));
         }
         TALLY(&t, count == c->rows, "%s: %zu rows, not %zu", c->options, count, c->rows);
         check_verdicts(&t, c, next_line(line), rows);
+        parts += check_more(&t, c, next_line(line), all, count);
         int lines = 0;
         for (line = p.out; *line != '\0'; line = next_line(line), lines++)
             TALLY(&t, strcspn(line, "\n") <= 80, "wider than 80: %.*s", (int)strcspn(line, "\n"), line);
         TALLY(&t, lines <= 40, "%d lines", lines);
         printed_free(&p);
     }
+    assert_true(parts > 10);
     tally_end(&t);
 }
 
@@ -310,7 +356,7 @@ enum { SAID = 1024 };
 
 /* The sentence about reversing, on one line; empty where nothing is. */
 static void reversing_of(const char *mappings, char out[SAID]) {
-    printed p = print_of("table -F unorm16,fp32,unorm24 --at 1 -m %s", mappings);
+    printed p = print_of("table -F unorm16,fp32,unorm24,fp16 --at 1 -m %s", mappings); /* no API has the last */
     const char *at = strstr(p.out, "the limit for 0.01:");
     size_t used = 0;
     assert_int_equal(p.status, 0);

@@ -6,6 +6,7 @@
  */
 #include "allowed.h"
 #include "code/code.h"
+#include "code/write.h"
 #include "oracle.h"
 
 enum { VARIANTS = 8, EITHER = 6, SPECIAL = 64 };
@@ -45,6 +46,54 @@ static size_t special_depths(rng *r, float d[SPECIAL]) {
         d[count++] = (float)(((double)rng_below(r, 16777215) + 0.5) / 16777215);
     }
     return count;
+}
+
+/* ---- Expressions ------------------------------------------------------------------------------------------------- */
+
+/* A random expression with all its parentheses, of some depth; a sign is behind no other. */
+static void draw(rng *r, int depth, bool sign, char *out, size_t size) {
+    static const char *const leaves[] = {"d", "n", "f", "N", "W", "2", "0.5"};
+    static const char operators[] = "+-*/";
+    char one[512], two[512];
+    const uint64_t kind = depth > 0 ? rng_below(r, 10) : 9;
+    if (kind == 9) {
+        snprintf(out, size, "%s", leaves[rng_below(r, sizeof leaves / sizeof leaves[0])]);
+    } else if (kind == 8 && sign) {
+        draw(r, depth - 1, false, one, sizeof one);
+        snprintf(out, size, "(-%s)", one);
+    } else {
+        draw(r, depth - 1, sign, one, sizeof one);
+        draw(r, depth - 1, sign, two, sizeof two);
+        snprintf(out, size, "(%s%c%s)", one, operators[rng_below(r, 4)], two);
+    }
+}
+
+static bool same(const steps *a, int i, const steps *b, int j) {
+    const steps_node *x = &a->node[i], *y = &b->node[j];
+    if (x->kind != y->kind || x->value != y->value || strcmp(x->name, y->name) != 0)
+        return false;
+    const int operands = x->kind <= STEPS_NAME ? 0 : x->kind == STEPS_NEGATIVE ? 1 : 2;
+    for (int k = 0; k < operands; k++)
+        if (!same(a, x->of[k], b, y->of[k]))
+            return false;
+    return true;
+}
+
+/* What is written without the parentheses that it need not have is read as the same operations in the same order. */
+TEST(test_expressions) {
+    tally t = {.name = "expressions"};
+    rng r = rng_make("expressions");
+    for (uint64_t n = test_cases(2000, 5000, 50000); n > 0; n--) {
+        static steps given, back;
+        char full[2048] = "x=", written[CODE_TEXT_SIZE] = "x=";
+        draw(&r, 1 + (int)rng_below(&r, 4), true, full + 2, sizeof full - 2);
+        steps_read(full, &given);
+        const code_writer w = {.l = code_language_find("glsl"), .steps = &given, .span = ""};
+        code_expression(&w, given.step[0].is, 0, written);
+        steps_read(written, &back);
+        TALLY(&t, same(&given, given.step[0].is, &back, back.step[0].is), "%s is written as %s", full, written);
+    }
+    tally_end(&t);
 }
 
 /* ---- Cameras ----------------------------------------------------------------------------------------------------- */

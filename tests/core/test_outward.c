@@ -224,10 +224,16 @@ static const shown_bound of_effect[] = {{"interval levels half-width from ", 4, 
                                         {"interval levels half-width from ", 5, ROW "usable", 6, UP, 0, 0},
                                         {NULL, 0, NULL, 0, EITHER, 0, 0}};
 
+/* A bias that is a window depth, as it is to be written: away from 0, which is downward where depth grows. */
+static const shown_bound of_bias[] = {{"D3DRS_DEPTHBIAS = ", 0, "setups[0].range.units_gap", 9, DOWN, 0, 0},
+                                      {NULL, 0, NULL, 0, EITHER, 0, 0}};
+static const shown_bound of_reversed[] = {{"D3DRS_DEPTHBIAS = ", 0, "setups[0].range.units_gap", 9, UP, 0, 0},
+                                          {NULL, 0, NULL, 0, EITHER, 0, 0}};
+
 TEST(commands) {
-    tally t = {.name = "table, budget, zfight, world, texture"};
+    tally t = {.name = "table, budget, zfight, world, texture, bias"};
     rng r = rng_make("outward commands");
-    uint64_t numbers[7] = {0};
+    uint64_t numbers[9] = {0};
     for (uint64_t i = test_cases(20, 60, 1000); i > 0; i--) {
         const double n = rng_log(&r, 0.01, 10), f = n * rng_log(&r, 100, 1e6), z = n * rng_log(&r, 1, f / n);
         const dp_format_row *format = dp_format_get((size_t)rng_below(&r, dp_format_count()));
@@ -249,9 +255,13 @@ TEST(commands) {
         TRY(3, of_budget, "budget -q --at %.9g %s", z, camera);
         TRY(4, of_zfight, "zfight -q --sample 500 --range %.9g:%.9g %s", n, z, camera);
         TRY(5, of_world, "world -q --at %.9g %s", z, camera);
+        TRY(7, of_bias, "bias -q --api d3d9 --separation %.9g --at %.9g -n %.9g -f %.9g -F %s -m d3d", 1e-3 * z, z, n,
+            f, format->format.name);
+        TRY(8, of_reversed, "bias -q --api d3d9 --separation %.9g --at %.9g -n %.9g -f %.9g -F %s -m reversed",
+            1e-3 * z, z, n, f, format->format.name);
         TRY(6, of_effect, "texture -q --product effect:intersection --at %.9g %s", z, camera);
     }
-    for (int k = 0; k < 7; k++)
+    for (int k = 0; k < 9; k++)
         TALLY(&t, numbers[k] >= 8, "few numbers of line %d: %llu", k, (unsigned long long)numbers[k]);
     tally_end(&t);
 }

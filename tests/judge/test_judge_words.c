@@ -2,6 +2,7 @@
 /* The numbers that a word gives a shader: by its name, or as engines document it (CesiumJS, UniformState.js; Unity;
  * PlayCanvas; Unreal). No driver is needed. */
 #include "judge/written.h"
+#include "printed.h"
 #include "support.h"
 
 /* The numbers that each word gives a shader, by its name or as engines document it: CesiumJS, UniformState.js; Unity;
@@ -44,4 +45,20 @@ TEST(test_words) {
             assert_ulp((double)w.constants[k], (double)(float)words[i].value[k], 0x1p29); /* of binary32 */
         free(w.text);
     }
+}
+
+/* The depths to be judged at are numbers of binary32, the same ones in every form. */
+TEST(test_depths_to_judge) {
+    json_t *root = json_printed(0, "judge --pairs-for 500 --json");
+    printed p = print_of("judge --pairs-for 500");
+    const json_t *depths = node_at(root, "depths");
+    const char *at = strchr(p.out, '\n');
+    for (size_t i = 0; i < json_array_size(depths); i++) {
+        const double exact = number_at(depths, "[%zu].depth", i);
+        assert_true((double)(float)exact == exact && (double)strtof(at + 1, NULL) == exact);
+        at = strchr(at + 1, '\n');
+    }
+    assert_true(json_array_size(depths) == 500 && at[1] == '\0');
+    json_decref(root);
+    printed_free(&p);
 }

@@ -110,6 +110,12 @@ test("files are those of the fs that is given, and whole or not there", async ()
     await run("texture --synthetic plane --parameter tilt=60 -F d16 -o made.npy", { fs });
     native(["texture", "--synthetic", "plane", "--parameter", "tilt=60", "-F", "d16", "-o", "native.npy"]);
     assert.deepEqual(fs.readFileSync("made.npy"), fs.readFileSync("native.npy"));
+    // A check that failed is an answer: it has its file. A refusal has none.
+    assert.throws(() => native(["check", "engine.need", "--json", "-o", "native.json"]), (error) => error.status === 1);
+    await run("check engine.need --json -o made.json", { fs });
+    assert.deepEqual(fs.readFileSync("made.json"), fs.readFileSync("native.json"));
+    await refuses(() => run("check engine.need --json -o none.json --csv", { fs }), /csv/);
+    assert.ok(!fs.existsSync("none.json"));
     const words = "-n 0.1 -f 1000 -m d3d --json";
     const piped = await run(`texture - ${words}`, { input: fs.readFileSync("made.npy") });
     assert.deepEqual(piped.recognised, JSON.parse(native(["texture", "made.npy", ...words.split(" ")])).recognised);

@@ -17,8 +17,10 @@ enum { SAMPLES = 8 };
 static bool sampled(const stacked *s, double from, double to, bool separation, double *lo, double *hi) {
     *lo = INFINITY;
     *hi = -INFINITY;
-    for (int i = 0; i <= SAMPLES; i++) {
-        const double z = fmin(fmax(from + (to - from) * i / SAMPLES, s->setup->spec.znear), s->setup->spec.zfar);
+    const double power = exp2(ceil(log2(fmax(from, 1e-12)))); /* where causes step */
+    for (int i = -1; i <= SAMPLES; i++) {
+        const double at = i < 0 ? fmin(power, to) : from + (to - from) * i / SAMPLES;
+        const double z = fmin(fmax(at, s->setup->spec.znear), s->setup->spec.zfar);
         dp_budget b;
         double value = 0;
         assert_int_equal(dp_budget_at(s->setup, z, &s->terms, &b), DP_OK);
@@ -171,12 +173,19 @@ static int check_panel(const drawn *d, const drawn_panel *p, const dp_setup *set
     return names;
 }
 
+static bool is_logarithmic(const char *mapping) {
+    return strcmp(mapping, "log") == 0 || strcmp(mapping, "osgearth") == 0;
+}
+
 /* Every cause that is asked for, and no other, has its place and a colour of its own. */
-static void check_legend(const drawn *d, const dp_budget_terms *terms, bool slanted) {
-    static const char *const upwards[] = {"format",        "eye",           "ndc",      "projection", "composition",
-                                          "interpolation", "linearization", "snapping", "set-up"};
+static void check_legend(const drawn *d, const char *mapping, const dp_budget_terms *terms, bool slanted) {
+    static const char *const upwards[] = {"format",      "eye",           "ndc",           "projection",
+                                          "composition", "interpolation", "linearization", "snapping",
+                                          "set-up",      "scale",         "log2",          "argument"};
+    const bool logs = is_logarithmic(mapping), ndc = !logs || strcmp(mapping, "osgearth") == 0; /* of clip z */
     const bool wanted[] = {
-        true, true, true, true, terms->world > 0, terms->interpolation > 0, terms->linearize != 0, slanted, slanted};
+        true,    true, ndc,  !logs, terms->world > 0, terms->interpolation > 0, terms->linearize != 0, slanted,
+        slanted, logs, logs, logs};
     double last_at = -1;
     unsigned colours = 0;
     for (size_t i = 0; i < line_of(d); i++) {
@@ -204,7 +213,7 @@ static void check_legend(const drawn *d, const dp_budget_terms *terms, bool slan
 static void check_figure(const drawn_theme *look, const char *formats, const char *mappings, const char *arguments,
                          const dp_budget_terms *terms, bool slanted) {
     dp_spec spec = drawn_camera(0.1, 1000);
-    spec.model = DP_MODEL_FLOAT;
+    spec.model = is_logarithmic(mappings) ? DP_MODEL_EXACT : DP_MODEL_FLOAT;
     if (slanted)
         spec.triangles = dp_triangles_default();
     cameras c = cameras_of(spec, formats, mappings);
@@ -217,7 +226,7 @@ static void check_figure(const drawn_theme *look, const char *formats, const cha
     assert_string_equal(d->y_caption->text, "share of the separation (%)");
     assert_string_equal(d->right_caption->text, "guaranteed separation (scene units)");
     assert_int_equal(d->panel_count, c.count);
-    check_legend(d, terms, slanted);
+    check_legend(d, mappings, terms, slanted);
     for (size_t i = 0; i < c.count; i++) {
         const size_t before = strlen(shown);
         assert_string_equal(d->panels[i].heading, c.count > 1 ? c.names[i] : "");
@@ -244,6 +253,8 @@ TEST(bands_are_the_causes) {
     check_figure(&drawn_light, "unorm16", "gl", "--from-origin 10", &world, false);
     check_figure(&drawn_light, "unorm16", "gl", "--interpolation 2", &interpolation, false);
     check_figure(&drawn_light, "unorm16", "gl", "--linearize", &linearize, false);
+    check_figure(&drawn_light, "unorm24,fp32", "log", "", &none, false);
+    check_figure(&drawn_light, "unorm24,unorm16", "osgearth", "", &none, false);
     check_figure(&drawn_light, "fp32", "reversed", "--viewport 1920x1080", &none, true);
     check_figure(&drawn_light, "fp32", "reversed", "--viewport 1920x1080 --interpolation 2 --linearize", &read_back,
                  true);

@@ -3,6 +3,7 @@
 #include <cairo.h>
 #include <unistd.h>
 
+#include "core/append.h"
 #include "drawn.h"
 #include "drawn_truth.h"
 #include "printed.h"
@@ -93,6 +94,45 @@ TEST(beside) {
     assert_px(drawn_px(&p->y, 4), p->frame.y0, 0.6);
     assert_non_null(strstr(d->svg->metadata, "\naxes: z log 1 2000, interval log 1e-06 4\n"));
     drawn_close(d);
+}
+
+/* Headings of one, two and three lines, the longest first, last or between: each ends above its own frame, and none
+ * reaches up to the words above the charts. */
+TEST(headings) {
+    double frames = 0;
+    for (int longest = 0; longest < 3; longest++) {
+        chart *c = drawn_sketch(10, 10);
+        snprintf(c->subtitle, sizeof c->subtitle, "underneath the title");
+        for (int i = 1; i < 3; i++)
+            *chart_add_panel(c) = c->panels[0];
+        for (int i = 0; i < 3; i++)
+            for (int n = i == longest ? 14 : 1; n > 0; n--)
+                append(c->panels[i].title, sizeof c->panels[i].title, "heading%d ", i);
+        drawn *d = drawn_chart(&drawn_light, c, 640, 480);
+        double above = 0;
+        int lines[3] = {0};
+        for (size_t k = 0; k < d->svg->count; k++)
+            if (d->svg->marks[k].kind == SVG_WORDS && strstr(d->svg->marks[k].text, "underneath") != NULL)
+                above = d->svg->marks[k].box.y1;
+        assert_true(above > 0);
+        for (size_t k = 0; k < d->svg->count; k++) {
+            const svg_mark *m = &d->svg->marks[k];
+            if (m->kind != SVG_WORDS || strncmp(m->text, "heading", 7) != 0)
+                continue;
+            const int panel = m->text[7] - '0';
+            lines[panel]++;
+            assert_true(m->box.y0 > above && m->box.y1 < d->panels[panel].frame.y0);
+            for (int i = 0; i < 3; i++) /* nor into another panel */
+                assert_true(m->box.y0 >= d->panels[i].frame.y1 || m->box.y1 <= d->panels[i].frame.y0 ||
+                            m->box.x0 >= d->panels[i].frame.x1 || m->box.x1 <= d->panels[i].frame.x0);
+        }
+        for (int i = 0; i < 3; i++)
+            assert_true(i == longest ? lines[i] > 1 : lines[i] == 1);
+        if (longest > 0)
+            assert_px(d->panels[0].frame.y0, frames, 0.01); /* all frames leave room for the longest */
+        frames = d->panels[0].frame.y0;
+        drawn_close(d);
+    }
 }
 
 /* ---- Sizes ------------------------------------------------------------------------------------------------------- */

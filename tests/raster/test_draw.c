@@ -55,6 +55,20 @@ static raster_status try_scene(scene *s, const char *raster, const char *format,
     return draw_camera_init(&s->camera, row, &s->setup);
 }
 
+/* An arithmetic that cannot bring clip depth from -1 to 1 into the buffer's is refused, in either direction. */
+TEST(depths_that_need_the_remap) {
+    scene s;
+    for (int k = 0; k < DP_MAPPING_COUNT; k++) {
+        const dp_mapping_row *mapping = dp_mapping_get((dp_mapping)k);
+        if (mapping->curve != DP_CURVE_PERSPECTIVE)
+            continue;
+        assert_int_equal(try_scene(&s, "llvmpipe", "unorm24", (dp_mapping)k), RASTER_OK);
+        assert_int_equal(dp_arith_parse("mesa", &s.setup.spec.arith), DP_OK);
+        assert_int_equal(draw_camera_init(&s.camera, raster_find("llvmpipe"), &s.setup),
+                         mapping->ndc_signed ? RASTER_MODEL : RASTER_OK);
+    }
+}
+
 /* ---- Every pixel by itself --------------------------------------------------------------------------------------- */
 
 /* Depth, and code as a number that grows with it, of each pixel that a triangle covers; NaN elsewhere. */

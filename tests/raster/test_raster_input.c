@@ -79,6 +79,20 @@ TEST(what_cannot_be_a_target) {
     assert_string_equal(raster_status_text((raster_status)-1), "not a status");
 }
 
+/* Who steps codes from pixel to pixel does so in 16 bits of UNORM alone: nobody steps floating-point depth. */
+TEST(formats_without_a_bound) {
+    static const char *const names[] = {"unorm16", "unorm8",    "unorm15",   "unorm17",   "unorm24",
+                                        "fp32",    "float5.10", "float5.11", "float6.10", "float8.8"};
+    for (size_t row = 0; row < raster_table.count; row++)
+        for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+            const bool stepped = i == 0 && strcmp(raster_get(row)->name, "softpipe") == 0;
+            dp_format format[2];
+            assert_int_equal(dp_format_parse(names[i], format), 1);
+            if (raster_bounded(raster_get(row), &format[0]) == stepped)
+                fail_msg("%s, %s: %s", raster_get(row)->name, names[i], stepped ? "bounded" : "not bounded");
+        }
+}
+
 /* Any bits for vertices: what is drawn stays inside the target, and depths are numbers, clamped ones in 0 to 1. */
 TEST(any_bits) {
     tally spans = {.name = "spans of any bits"};

@@ -5,8 +5,9 @@
 
 #include "printed.h"
 
-#define STREET "tests/models/street.obj"
-#define DRAWN  " --separation 0.02 -F unorm16 -m d3d -f 100"
+#define STREET    "tests/models/street.obj"
+#define NEAR_TIES " --separation 0.02 -F unorm24 -m d3d -n 0.1 -f 100"
+#define DRAWN     " --separation 0.02 -F unorm16 -m d3d -f 100"
 
 typedef struct picture {
     png_image head;
@@ -63,6 +64,25 @@ TEST(counts) {
         assert_non_null(strstr(p.out, want));
         printed_free(&p);
         free(seen.rgb);
+        json_decref(root);
+    }
+}
+
+/* Pixels of a pair are counted whichever of its surfaces comes first in the file, the nearer one or the other: where
+ * depths are swapped, not only where they tie, which the first one wins. */
+TEST(either_order) {
+    static const char *const parts[] = {"o road\nv -8 0 -8\nv 8 0 -8\nv 8 0 8\nv -8 0 8\nf -1 -2 -3 -4\n",
+                                        "o paint\nv -1 0.00001 -4\nv 1 0.00001 -4\nv 1 0.00001 4\n"
+                                        "v -1 0.00001 4\nf -1 -2 -3 -4\n"};
+    for (int first = 0; first < 2; first++) {
+        const char *path = scratch_file("order.obj"), *png = scratch_file("order.png");
+        FILE *out = fopen(path, "w");
+        fprintf(out, "%s%s", parts[first], parts[1 - first]);
+        fclose(out);
+        json_t *root = json_printed(0, "scene %s%s --viewport 320x200 --render %s", path, NEAR_TIES, png);
+        const double found = number_at(root, "render.wrong_found");
+        assert_true(found > 50 && number_at(root, "render.wrong_pixels") == found);
+        assert_true(number_at(root, "findings[0].wrong_pixels") == found);
         json_decref(root);
     }
 }

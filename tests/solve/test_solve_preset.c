@@ -102,6 +102,25 @@ TEST(test_printed) {
     printed_free(&text);
 }
 
+/* The depths that are given, by --at and as a range, are those at which it holds, not where the camera looks. */
+TEST(test_depths_given) {
+    static const struct {
+        const char *options;
+        double lo, hi;
+    } rows[] = {{"--at 1000km", 1e6, 1e6}, {"--at 3km", 3e3, 3e3}, {"--range 2km:50km", 2e3, 5e4}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        json_t *root =
+            json_printed(0, "solve --preset maplibre-globe:height=800 --separation 100m %s", rows[i].options);
+        const double from = number_at(root, "from"), to = number_at(root, "to");
+        assert_true(number_at(root, "lo") == rows[i].lo && number_at(root, "hi") == rows[i].hi && from <= to);
+        for (int k = 0; k < 2; k++) {
+            assert_true(keeps(k == 0 ? from : to, 0, 800, 100, rows[i].lo, true));
+            assert_true(keeps(k == 0 ? from : to, 0, 800, 100, rows[i].hi, true));
+        }
+        json_decref(root);
+    }
+}
+
 /* In the middle of the globe, 700 pixels high, the near plane in place of the preset's. */
 static double behind_near(double zoom, double znear) {
     double focus;

@@ -192,6 +192,34 @@ static double share_of(const world_scheme *s, const pose *p, double distance, in
     return most;
 }
 
+/* Sums of four products in every order, one after the other and in pairs: over some places no two orders have the same
+ * bits where products are fused, but pairs that are added in either order. */
+TEST(orders_of_sums) {
+    enum { PLACES = 400 };
+    static float seen[WORLD_ORDERS][PLACES][3];
+    const world_scheme plain = {world_get(0), world_get(0)->standard};
+    rng r = rng_make("orders of sums");
+    int alike = 0;
+    for (int i = 0; i < PLACES; i++) {
+        world_camera c;
+        pose p;
+        do {
+            p = draw(&r, &plain, 1e5, 10.0);
+            p.fused = true;
+        } while (!camera_of(&p, 1e5, &c));
+        const world_place place = place_of(&p, &c, 10.0, 10.0, 0);
+        for (c.order = 0; c.order < WORLD_ORDERS; c.order++)
+            world_view(&plain, &c, &place, seen[c.order][i]);
+    }
+    for (int a = 0; a < WORLD_ORDERS; a++)
+        for (int b = 0; b < a; b++)
+            if (memcmp(seen[a], seen[b], sizeof seen[a]) == 0) {
+                assert_true(b >= WORLD_ORDERS / 2);
+                alike++;
+            }
+    assert_int_equal(alike, WORLD_ORDERS / 4);
+}
+
 static const double distances[] = {0.0, 3.0, 1e3, 8.2e3, 1.1e4, 4.1e4, 1e5, 1e6, 6.4e6, 2e7, 1.1e9, 6e11};
 enum { DISTANCES = sizeof distances / sizeof distances[0], MOST_CLIMBS = 1600 };
 
