@@ -59,7 +59,7 @@ static canvas_colour grey_of(const chart_axis *ground, double v) {
 }
 
 static canvas_colour scale_colour(const chart *c, double share) {
-    const double level = fmin(fmax(share, 0), 1);
+    const double level = share > 0 ? share < 1 ? share : 1 : 0;
     return c->grey ? (canvas_colour){level, level, level, 1} : theme_viridis(share);
 }
 

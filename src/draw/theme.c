@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "draw/theme.h"
 
-#include <math.h>
-
 #define RGBA(hex, a)                                                                                                   \
     { ((hex) >> 16 & 255) / 255.0, ((hex) >> 8 & 255) / 255.0, ((hex)&255) / 255.0, a }
 #define RGB(hex) RGBA(hex, 1.0)
@@ -55,7 +53,7 @@ static const struct {
 };
 
 /* viridis (van der Walt and Smith 2015) at eleven equal steps; straight lines between them stay within 2/255. */
-static const canvas_colour viridis[] = {
+const canvas_colour theme_viridis_steps[THEME_VIRIDIS_STEPS] = {
     RGB(0x440154), RGB(0x482576), RGB(0x414487), RGB(0x35608D), RGB(0x2A788E), RGB(0x21908C),
     RGB(0x22A884), RGB(0x43BF71), RGB(0x7AD151), RGB(0xBBDF27), RGB(0xFDE725),
 };
@@ -89,16 +87,6 @@ canvas_pen theme_pen(const theme *t, int colour, int stroke, double scale) {
     return pen;
 }
 
-canvas_colour theme_viridis(double t) {
-    enum { LAST = sizeof viridis / sizeof *viridis - 1 };
-    double at = fmin(fmax(t, 0), 1) * LAST;
-    int i = (int)fmin(at, LAST - 1);
-    double f = at - i;
-    const canvas_colour *p = &viridis[i];
-    return (canvas_colour){p[0].r + f * (p[1].r - p[0].r), p[0].g + f * (p[1].g - p[0].g),
-                           p[0].b + f * (p[1].b - p[0].b), 1};
-}
-
 void theme_marker(canvas *c, const theme *t, double x, double y, int marker, int colour, bool hollow, double scale) {
     double radius = (hollow ? 3.2 : 3.6) * scale;
     size_t count = markers[marker % THEME_MARKERS].count;
@@ -116,9 +104,4 @@ void theme_marker(canvas *c, const theme *t, double x, double y, int marker, int
     }
     canvas_polygon(c, at, count, fill);
     canvas_line(c, at, count + 1, &rim);
-}
-
-uint32_t theme_pixel(canvas_colour colour) {
-    return 0xFF000000u | (uint32_t)lrint(colour.r * 255) << 16 | (uint32_t)lrint(colour.g * 255) << 8 |
-           (uint32_t)lrint(colour.b * 255);
 }

@@ -6,6 +6,7 @@
 #ifndef DRAW_THEME_H
 #define DRAW_THEME_H
 
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -38,9 +39,6 @@ canvas_colour theme_colour(const theme *t, int colour);
 /** A pen for curve `colour` with stroke style `stroke` (0 is solid), taken modulo what there is. */
 canvas_pen theme_pen(const theme *t, int colour, int stroke, double scale);
 
-/** viridis: 0 is dark violet, 1 yellow; outside it is clamped. */
-canvas_colour theme_viridis(double t);
-
 /**
  * Draws marker `marker` (disc, square, diamond, triangle, ...) at a point.
  * @param colour  of the palette; -1 is that of the text
@@ -48,7 +46,26 @@ canvas_colour theme_viridis(double t);
  */
 void theme_marker(canvas *c, const theme *t, double x, double y, int marker, int colour, bool hollow, double scale);
 
+enum { THEME_VIRIDIS_STEPS = 11 };
+extern const canvas_colour theme_viridis_steps[THEME_VIRIDIS_STEPS];
+
+/* A picture asks for both in each of millions of pixels, so they stand here. */
+
+/** viridis: 0 is dark violet, 1 yellow; outside it is clamped. */
+static inline canvas_colour theme_viridis(double t) {
+    enum { LAST = THEME_VIRIDIS_STEPS - 1 };
+    const double at = t > 0 ? t < 1 ? t * LAST : LAST : 0;
+    const int i = at < LAST - 1 ? (int)at : LAST - 1;
+    const double f = at - i;
+    const canvas_colour *const p = &theme_viridis_steps[i];
+    return (canvas_colour){p[0].r + f * (p[1].r - p[0].r), p[0].g + f * (p[1].g - p[0].g),
+                           p[0].b + f * (p[1].b - p[0].b), 1};
+}
+
 /** 0xAARRGGBB of an opaque colour. */
-uint32_t theme_pixel(canvas_colour colour);
+static inline uint32_t theme_pixel(canvas_colour colour) {
+    return 0xFF000000u | (uint32_t)lrint(colour.r * 255) << 16 | (uint32_t)lrint(colour.g * 255) << 8 |
+           (uint32_t)lrint(colour.b * 255);
+}
 
 #endif
