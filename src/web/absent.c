@@ -15,7 +15,9 @@
 #include "draw/pixels.h"
 #include "judge/cmd_judge/request.h"
 #include "judge/pairs.h"
+#include "method/cmd_methods/methods.h"
 #include "method/cmd_methods/mine.h"
+#include "method/truth.h"
 #include "plot/figure.h"
 #include "quantity/cmd_table/constants.h"
 #include "quantity/cmd_table/in_preset.h"
@@ -33,6 +35,7 @@
 #include "texture/cmd_texture/request.h"
 #include "texture/device.h"
 #include "texture/units.h"
+#include "world/arithmetic.h"
 #include "zfight/cmd_prepass/request.h"
 
 static int absent(const asked_line *line) {
@@ -82,6 +85,8 @@ ABSENT_COMMAND(check)
 ABSENT_COMMAND(code)
 ABSENT(cmd_completions)
 ABSENT_COMMAND(convert)
+ABSENT(cmd_help)
+ABSENT_COMMAND(list)
 ABSENT_COMMAND(methods)
 ABSENT_COMMAND(scene)
 ABSENT_COMMAND(shadow)
@@ -264,6 +269,44 @@ const method_family_row linearize_family = {.method_count = &none}, encode_famil
                         normal_family = {.method_count = &none};
 
 void method_start(void) {}
+
+int methods_resolve(const judge_request *o, const method_family_row *family, methods_asked *out) {
+    (void)family;
+    (void)out;
+    return absent(o->line);
+}
+
+int methods_single(const judge_request *o, methods_asked *asked) {
+    (void)asked;
+    return absent(o->line);
+}
+
+const char *methods_machine(char *out, size_t size) {
+    (void)size;
+    return out;
+}
+
+double truth_width(const dp_setup *setup, uint32_t code, bool *cut) {
+    (void)setup;
+    (void)code;
+    (void)cut;
+    return 0.0;
+}
+
+/* What world and its figure compute with; the bounds are there. */
+#define ABSENT_STEPS(name)                                                                                             \
+    void arithmetic_##name(const world_scheme *s, const world_camera *camera, const world_place *place,                \
+                           float out[3]) {                                                                             \
+        (void)s, (void)camera, (void)place, (void)out;                                                                 \
+    }
+ABSENT_STEPS(camera_double)
+ABSENT_STEPS(camera_float)
+ABSENT_STEPS(cell)
+ABSENT_STEPS(local)
+ABSENT_STEPS(split)
+ABSENT_STEPS(tile)
+ABSENT_STEPS(two_sum)
+ABSENT_STEPS(world)
 
 int mine_open(const judge_request *o, methods_asked *asked, bool on_device, mine **out) {
     (void)asked;

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "camera/presets.h"
 #include "cli/cmd_help/describe.h"
 #include "cli/option/option.h"
 #include "report/output.h"
@@ -83,8 +84,23 @@ PAGE_EXPORT("parse") int parse_words(int count) {
     return status;
 }
 
-/** The options of the command that is the first word: name, argument ("" of none) and help of each. @return exit status
- */
+/* The rows that an option's argument may name, separated by one space; presets whose planes are computed are more than
+ * a name. */
+static void say_names(const option_row *row) {
+    list_item item;
+    size_t i = 0;
+    while (row->names != NULL && row->names->words != NULL && row->names->words[i] != NULL)
+        i++;
+    for (; row->names != NULL && names_get(row->names, i, &item); i++) {
+        const preset *engine = strcmp(row->name, "preset") == 0 ? item.row : NULL;
+        if (engine == NULL || engine->function == NULL)
+            printf("%s ", item.name);
+    }
+    say("");
+}
+
+/** The options of the command that is the first word: name, argument ("" of none), help and names of each.
+ * @return exit status */
 PAGE_EXPORT("takes") int taken_by_words(int count) {
     const option_row *all[OPTIONS_MAX + 1];
     char argument[OPTION_TEXT_SIZE], help[DESCRIPTION_SIZE];
@@ -96,8 +112,14 @@ PAGE_EXPORT("takes") int taken_by_words(int count) {
             say(use.row->name);
             say(option_use_argument(&use, argument));
             say(option_describe(&use, help));
+            say_names(use.row);
         }
     }
     fflush(NULL);
     return v != NULL ? EXIT_FINE : EXIT_USAGE;
+}
+
+PAGE_EXPORT("version") void say_version(void) {
+    printf("%s", dp_version());
+    fflush(NULL);
 }

@@ -132,10 +132,12 @@ export async function load(from, host = () => ({})) {
             return { status, err, verb, operands, options };
         },
 
-        // The options that a command takes: a Map from long name to { argument, help }: how its argument is written, "" of none.
+        // The options that a command takes: a Map from long name to { argument, help, names }: how its argument is written,
+        // "" of none, and what it may name.
         takes(verb) {
             const words = call("takes", [verb]).out.split("\0").slice(0, -1), taken = new Map();
-            for (let i = 0; i < words.length; i += 3) taken.set(words[i], { argument: words[i + 1], help: words[i + 2] });
+            for (let i = 0; i < words.length; i += 4)
+                taken.set(words[i], { argument: words[i + 1], help: words[i + 2], names: words[i + 3].split(" ").slice(0, -1) });
             return taken;
         },
 
@@ -167,6 +169,8 @@ export async function load(from, host = () => ({})) {
 
         // The length at a step of a slider of the picture, 0 of gap and 1 of distance, with a unit or without.
         lengthAt: (axis, step, named) => say("picture_step", axis, step, named ? 1 : 0),
+
+        version: () => say("version"),
 
         // A number in few digits, rounded up (1), down (-1) or to the nearest (0).
         number: (value, way) => say("number", value, way),

@@ -6,8 +6,7 @@ import { $, errorOf, fields, make, mapOf, page, set, start, state, takes, VIEW, 
 
 // ---- Controls -----------------------------------------------------------------------------------------------------
 
-export const names = (what) => JSON.parse(page.engine.run(["list", what, "--json"]).out).items.map((item) => item.name);
-const choices = (option) => takes.table.get(option).argument.split("|");
+export const names = (option, verb = "table") => takes[verb].get(option).names;
 
 // Sliders are logarithmic; the last step of far is infinity. A slider writes a plain number of three digits.
 const SLIDERS = { near: [-3, 2], far: [0, 7] }, STEPS = 500;
@@ -80,8 +79,7 @@ export function buildSetup(index) {
     };
     // A camera of an engine fills the fields with what the program says that it is.
     // Those that compute their planes ask for more than a name: they are typed as a further option.
-    const engines = JSON.parse(page.engine.run(["list", "presets", "--json"]).out).items.filter(({ camera }) => !camera.startsWith("near and far computed"));
-    const preset = select("preset", "Engine", ["", ...engines.map(({ name }) => name)], "any");
+    const preset = select("preset", "Engine", ["", ...names("preset")], "any");
     own.preset.addEventListener("change", () => {
         if (index === 0) $("#engine").value = own.preset.value;
         if (own.preset.value === "") return;
@@ -127,17 +125,17 @@ export function buildSetup(index) {
     own.refused = make("p", { class: "refused", role: "status", id: `refused-${letter}` });
     fields[index] = own;
     const details = make("details", {}, make("summary", {}, "Arithmetic, viewport and more"),
-        make("div", { class: "row" }, select("model", "Model", ["", ...choices("model").filter((name) => name !== "auto")], "auto"),
-            select("arith", "Arithmetic", ["", ...names("arithmetic")], "auto")),
+        make("div", { class: "row" }, select("model", "Model", ["", ...names("model").filter((name) => name !== "auto")], "auto"),
+            select("arith", "Arithmetic", ["", ...names("arith")], "auto")),
         make("div", { class: "row" }, text("viewport", "Viewport", "1920x1080"), text("slant", "Slant", "0:90"),
-            text("at", "Depths", "1,10,100"), select("unit", "Unit", ["", ...choices("unit")], "scene units")),
+            text("at", "Depths", "1,10,100"), select("unit", "Unit", ["", ...names("unit")], "scene units")),
         make("label", { for: more.id }, "Further options, as the command has them"), more);
     details.open = matchMedia("(min-width: 60rem)").matches;
     root.append(make("fieldset", {}, make("legend", {}, `Set-up ${letter}`), make("div", { class: "row" }, preset),
         length("near", "Near"), length("far", "Far"),
         make("div", { class: "row", role: "group", "aria-label": `Depth buffer, set-up ${letter}` }, ...plainly),
-        make("div", { class: "row" }, select("format", "Format", names("formats")),
-            select("mapping", "Mapping", names("mappings")),
+        make("div", { class: "row" }, select("format", "Format", names("format")),
+            select("mapping", "Mapping", names("mapping")),
             make("span", {}, ortho, make("label", { for: ortho.id }, " orthographic"))),
         details, own.refused));
     for (const option of Object.keys(STARTS)) own[option].setAttribute("aria-describedby", own.refused.id);

@@ -136,9 +136,9 @@ async function begin() {
         onRun: showRun,
     });
     $("#cancel").addEventListener("click", () => page.aside.cancel());
-    for (const verb of [...VERBS, "judge"]) takes[verb] = page.engine.takes(verb);
-    $("#version").textContent = page.engine.run(["--version"]).out.split("\n")[0].replace(/^depthprec /, "");
-    for (const name of names("apis")) $("[data-option=api]").append(make("option", {}, name));
+    for (const verb of [...VERBS, "judge", "texture"]) takes[verb] = page.engine.takes(verb);
+    $("#version").textContent = page.engine.version();
+    for (const name of names("api", "bias")) $("[data-option=api]").append(make("option", {}, name));
     page.widths = observeWidths();
     buildSetup(0);
     buildSetup(1);
@@ -162,7 +162,7 @@ async function begin() {
         take,
     });
     page.imagePanel = createImagePanel({
-        $, make, aside: page.aside, setup: () => state.setups[0], take, otherWay: OTHER_WAY, packings: names("packings"),
+        $, make, aside: page.aside, setup: () => state.setups[0], take, otherWay: OTHER_WAY, packings: names("packing", "texture"),
         camera: (all) => words([...state.setups[0]].filter(([name]) => all.includes(name))),
     });
     showPicture();

@@ -26,8 +26,9 @@ export async function native(commands) {
     return results;
 }
 
-// How two results differ, in a line; "" where they are the same.
-export function difference(here, there) {
+// How two results differ, in a line; "" where they are the same. The page knows fewer commands that would take an option.
+export function difference(...results) {
+    const [here, there] = results.map((said) => ({ ...said, err: said.err.replace(/(is not an option of \w+), but of .*/, "$1") }));
     for (const part of ["status", "err", "out"]) {
         if (here[part] === there[part]) continue;
         const a = String(here[part]).split("\n"), b = String(there[part]).split("\n"), line = a.findIndex((text, i) => text !== b[i]);

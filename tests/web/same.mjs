@@ -9,7 +9,7 @@ const [module, engineFile, count] = process.argv.slice(2);
 const { load } = await import(pathToFileURL(engineFile));
 const engine = await load(new Uint8Array(readFileSync(module)));
 const used = seed(), r = random(used);
-named(engine.run);
+named();
 const commands = Array.from({ length: Number(count) }, () => state(r));
 const natives = await native(commands), times = {};
 let different = 0, fine = 0;

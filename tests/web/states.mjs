@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Random states of the page: command lines of the commands that it has, most of them good, some refused.
+import { execFileSync } from "node:child_process";
 
 // Whole numbers below 2^32, always the same for a seed (splitmix32).
 export function random(seed) {
@@ -44,10 +45,11 @@ const RASTERS = ["llvmpipe", "swiftshader", "warp", "spec-d3d", "spec-vulkan"];
 export const names = { formats: FORMATS, mappings: MAPPINGS, apis: APIS, rasters: RASTERS, presets: [], ariths: [],
     models: ["exact", "float", "staged"], roundings: [], compositions: [], platforms: [] };
 
-// Takes the names that `list TOPIC --json` prints; run is a command runner: words -> { out }.
-export function named(run) {
+// Takes the names that the program's `list TOPIC --json` prints.
+export function named() {
     // Of presets those that need no number.
-    const list = (topic) => JSON.parse(run(["list", topic, "--json"]).out).items.filter((item) => !/, needed/.test(item.camera ?? ""))
+    const run = (words) => execFileSync(process.env.DEPTHPREC ?? "build/depthprec", words, { encoding: "utf8" });
+    const list = (topic) => JSON.parse(run(["list", topic, "--json"])).items.filter((item) => !/, needed/.test(item.camera ?? ""))
         .map((item) => item.name);
     names.presets = list("presets");
     names.ariths = list("arithmetic");

@@ -58,31 +58,6 @@ static void list_commands(output *out) {
     page_text(&p, "Exit: 0 success, 1 a check failed, 2 bad usage or input, 3 cannot read or write.");
 }
 
-const char *option_describe(const option_taken *use, char out[DESCRIPTION_SIZE]) {
-    const option_row *row = use->row;
-    const char *help = use->own.help != NULL ? use->own.help : row->help, *standard, *without;
-    char text[OPTION_TEXT_SIZE];
-    const int before = row->names != NULL ? (int)strcspn(help, "@") : (int)strlen(help);
-    const bool named = help[before] != '\0', limited = row->least < row->most && use->own.parse == NULL;
-    option_default(use, &standard, &without);
-    out[0] = '\0';
-    append(out, DESCRIPTION_SIZE, "%.*s", before, help);
-    if (named)
-        append(out, DESCRIPTION_SIZE, "%s%s", names_join(row->names, ", ", ", ", text), help + before + 1);
-    if (use->own.also != NULL)
-        append(out, DESCRIPTION_SIZE, "; %s", use->own.also);
-    for (const char *name = row->also; name != NULL; name = strchr(name, ' ') != NULL ? strchr(name, ' ') + 1 : NULL)
-        append(out, DESCRIPTION_SIZE, "%s%.*s", name == row->also ? "; also as " : ", ", (int)strcspn(name, " "), name);
-    if (limited)
-        append(out, DESCRIPTION_SIZE, " (%s", option_limits(row, text));
-    if (standard != NULL || without != NULL)
-        append(out, DESCRIPTION_SIZE, "%sdefault%s%s%s%s", limited ? "; " : " (", standard != NULL ? " " : "",
-               standard != NULL ? standard : "", without != NULL ? ": " : "", without != NULL ? without : "");
-    if (limited || standard != NULL || without != NULL)
-        append(out, DESCRIPTION_SIZE, ")");
-    return out;
-}
-
 /* "-n, --near Z". */
 static void label_of(const option_taken *use, char label[128]) {
     const option_row *row = use->row;
