@@ -488,7 +488,7 @@ endif
 
 # ---- Lint --------------------------------------------------------------------------------------------------------
 
-LINTS := lint-format lint-clang lint-cppcheck lint-man lint-spell lint-scripts lint-licence
+LINTS := lint-format lint-clang lint-cppcheck lint-man lint-spell lint-scripts lint-licence lint-types
 .PHONY: lint $(LINTS)
 lint:
 	@sh src/packages.sh lint
@@ -496,6 +496,12 @@ lint:
 
 lint-format:
 	$(Q)clang-format --dry-run -Werror $(ALL_C) $(ALL_H)
+
+# The page's scripts, by what they are written as in JSDoc.
+lint-types:
+	$(call say,LINT)
+	$(Q)if why=$$(B=$(B) sh tests/web/packages.sh); then $(B)/web/node_modules/.bin/tsc -p tests/web; \
+	else echo "left out: types of the page's scripts, as $$why"; fi
 
 # What is not built on the way by clang with sanitizers is judged, too: benchmarks and fuzz targets.
 lint-clang: $(B)/build.cflags $(B)/check.cflags
@@ -593,7 +599,7 @@ help:
 ## make fuzz        each fuzz target for FUZZ_SECONDS=20 (needs clang)
 ## make mutants     whether the tests notice the changes of the source in tests/mutants.txt: two hours (ROOM=, ONLY=)
 ## make coverage    the lines that the tests reach, per file
-## make lint        format, warnings of clang, cppcheck, manual pages, spelling, scripts, licences
+## make lint        format, warnings of clang, cppcheck, manual pages, spelling, scripts, licences, types of scripts
 ## make plots       draw the gallery in plots/ again
 ## make bench       measure the speed of the engine and the methods, charts of the latter in build/bench; last, which aims
 ##                  are met

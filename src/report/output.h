@@ -45,7 +45,8 @@ typedef struct output {
     bool paged; /**< by a pager, on the terminal of stdout */
     int width;  /**< characters in a line of text; 0: as the terminal or the page has it */
     output_colour colour;
-    bool cells;           /**< U+001F stands before each cell of a table, for who makes another table of it */
+    bool cells;           /**< U+001F stands before each cell of a table, for who makes another table of it, and U+001E
+                               before and behind each sentence from the margin on */
     const char *measured; /**< of what was measured on a GPU: which; null where nothing was. Told beside the data */
     size_t used;          /**< bytes waiting in the buffer */
     char buffer[OUTPUT_BUFFER_SIZE];

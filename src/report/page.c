@@ -135,8 +135,11 @@ void page_command(page *p, const char *command) {
 
 void page_text(page *p, const char *format, ...) {
     FORMATTED(text, format);
+    const size_t length = strlen(text);
+    const char *const mark = p->out->cells && length > 0 && text[length - 1] == '.' ? "\x1e" : "";
+    output_format(p->out, "%s", mark);
     put_words(p, 0, INDENT, text);
-    output_char(p->out, '\n');
+    output_format(p->out, "%s\n", mark);
 }
 
 void page_title(page *p, const char *format, ...) {

@@ -15,7 +15,7 @@ export function serve(measure) {
         engine.measure = measure;
         engine.gpu = gpu;
         const said = file ? await answer(engine, file, line.slice(line.lastIndexOf("--") + 1)) : engine.run(line, most, true);
-        postMessage(said, said.values ? [said.values.buffer] : []);
+        postMessage(said, { transfer: said.values ? [said.values.buffer] : [] });
     };
 }
 
@@ -73,7 +73,7 @@ export function createAside(module, { here, onSaid, onRun }) {
         address ??= URL.createObjectURL(new Blob([source], { type: "text/javascript" }));
         worker = new Worker(address); // no module: from file:// none loads as a blob
         worker.onmessage = ({ data }) => end(data);
-        worker.onerror = worker.onmessageerror = (event) => (event.preventDefault(), fail());
+        for (const what of ["error", "messageerror"]) worker.addEventListener(what, (event) => (event.preventDefault(), fail()));
     }
 
     function next() {

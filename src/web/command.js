@@ -37,7 +37,7 @@ export const join = (words) =>
 // A message as the page says it: options have the names of their controls, where there are such. Lines that are a command
 // stay, and what only a command line has is left out.
 export const plain = (text) => text.replace(/ *--full\s+prints [^.]*\./, "").replaceAll(/^.*$/gm, (line) => (/(^|\s)depthprec [a-z]/.test(line) ? line
-    : line.replaceAll(/(?<![\w-])--([a-z][a-z-]*)/g, (_, name) => document.querySelector(`#a [data-option="${name}"]`)?.labels[0].textContent.trim() ?? name)));
+    : line.replaceAll(/(?<![\w-])--([a-z][a-z-]*)/g, (_, name) => /** @type {any} */ (document.querySelector(`#a [data-option="${name}"]`))?.labels[0].textContent.trim() ?? name)));
 
 // The commands of a line: its words between those that are ";", each without "depthprec" in front.
 export function commands(line) {

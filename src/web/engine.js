@@ -2,6 +2,7 @@
 // The module and the page: words go in, text comes out. engine.c is the other side. Each command runs in an instance of
 // its own, so that nothing is left of the one before.
 
+const AXES = ["gap", "distance", "near", "far"]; // see picture.c
 const NO_FILE = 44, BAD_HANDLE = 8; // WASI's errno
 const encoder = new TextEncoder();
 
@@ -72,10 +73,12 @@ function system(memory, streams) {
 }
 
 // Starts the module's bytes, or the module that another thread has compiled; a host knows more of a system.
+/** @param {(memory: () => any, streams: Streams) => object} host */
 export async function load(from, host = () => ({})) {
     const module = from instanceof WebAssembly.Module ? from : await WebAssembly.compile(from);
 
-    function begin(most) {
+    function begin(most = Infinity) {
+        /** @type {{ exports: any }} */
         let instance;
         const memory = () => instance.exports.memory, streams = new Streams(most), decoder = new TextDecoder();
         instance = new WebAssembly.Instance(module, {
@@ -95,10 +98,14 @@ export async function load(from, host = () => ({})) {
         new Uint8Array(memory.buffer, room, bytes.length).set(bytes);
     }
 
-    function call(name, words, most, cells = false, { exports, memory, streams } = begin(most)) {
-        if (cells) exports.cells(1);
+    function write(words, { exports, memory }) {
         const bytes = encoder.encode(words.map((word) => word.replaceAll("\0", "\ufffd") + "\0").join(""));
         put(exports.words(bytes.length), bytes, memory);
+    }
+
+    function call(name, words, most, cells = false, { exports, memory, streams } = begin(most)) {
+        if (cells) exports.cells(1);
+        write(words, { exports, memory });
         const status = exports[name](words.length);
         return { status, out: streams.text(1), err: streams.text(2), left: streams.left };
     }
@@ -113,7 +120,7 @@ export async function load(from, host = () => ({})) {
 
     const engine = {
         module,
-        gpu: () => 1, // there is none; the page has one
+        gpu: (/** @type {[ArrayBuffer, number]} */ ..._request) => 1, // there is none; the page has one
 
         // How far text reaches, px; the page has a better one.
         measure: (text, size, bold) => text.length * size * (bold ? 0.65 : 0.58),
@@ -167,16 +174,24 @@ export async function load(from, host = () => ({})) {
             };
         },
 
-        // The length at a step of a slider of the picture, 0 of gap and 1 of distance, with a unit or without.
-        lengthAt: (axis, step, named) => say("picture_step", axis, step, named ? 1 : 0),
+        // The length at a step of a slider, from 0 to 1000, with a unit or without; its step; and a length that was typed as a
+        // number of units.
+        lengthAt: (axis, step, named) => say("length_at", AXES.indexOf(axis), step, named ? 1 : 0),
+        stepOf: (axis, value) => (own ??= begin()).exports.length_step(AXES.indexOf(axis), value),
+        length(...words) {
+            own ??= begin();
+            write(words, own);
+            return own.exports.length_value(words.length);
+        },
 
         version: () => say("version"),
 
         // A number in few digits, rounded up (1), down (-1) or to the nearest (0).
         number: (value, way) => say("number", value, way),
 
-        // An instance that stays: { exports, memory }.
+        // An instance that stays: { exports, memory, streams }; and words for it.
         instance: () => begin(),
+        write,
     };
     return engine;
 }

@@ -8,7 +8,7 @@ export function readFigure(svg) {
     const axes = /\naxes: (\S+) (\S+) (\S+) (\S+), (\S+) (\S+) (\S+) (\S+)\n/.exec(svg)?.slice(1);
     const at = /<rect x="([^"]+)" y="([^"]+)" width="([^"]+)" height="([^"]+)"\/><\/clipPath>/.exec(svg)?.slice(1).map(Number);
     if (!axes || !at) return null;
-    const axis = ([key, scale, lo, hi]) => ({ key, log: scale === "log", lo: Number(lo), hi: Number(hi), text: `${lo}:${hi}` });
+    const axis = (/** @type {string[]} */ [key, scale, lo, hi]) => ({ key, log: scale === "log", lo: Number(lo), hi: Number(hi), text: `${lo}:${hi}` });
     return {
         frame: { x: at[0], y: at[1], w: at[2] - 1, h: at[3] - 1 }, // the clip is a pixel wider
         size: /width="(\d+)" height="(\d+)"/.exec(svg).slice(1).map(Number),

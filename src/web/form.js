@@ -2,34 +2,16 @@
 // The controls: they are built, follow the state and change it.
 import { join, plain, split } from "./command.js";
 import { later } from "./schedule.js";
-import { $, errorOf, fields, make, mapOf, page, set, start, state, takes, VIEW, VIEWPORT, words, world } from "./state.js";
+import { $, $$, errorOf, fields, make, mapOf, page, set, start, state, takes, unitOf, VIEW, VIEWPORT, words, world } from "./state.js";
 
 // ---- Controls -----------------------------------------------------------------------------------------------------
 
 export const names = (option, verb = "table") => takes[verb].get(option).names;
 
-// Sliders are logarithmic; the last step of far is infinity. A slider writes a plain number of three digits.
-const SLIDERS = { near: [-3, 2], far: [0, 7] }, STEPS = 500;
-
-function slide(option, step) {
-    const [lo, hi] = SLIDERS[option];
-    if (option === "far" && step === STEPS) return "inf";
-    return String(Number((10 ** (lo + (step / STEPS) * (hi - lo))).toPrecision(3)));
-}
-
-// Where a slider stands for a text. This places the thumb alone: the command reads the text itself.
-export const METRES = { nm: 1e-9, um: 1e-6, mm: 1e-3, cm: 1e-2, in: 0.0254, ft: 0.3048, m: 1, km: 1e3 };
-export function numberOf(text, unit) {
-    const [, number, of] = /^\s*([-+.\de]+)\s*([a-z]*)/i.exec(text) ?? [];
-    return /^\s*inf/i.test(text) ? Infinity : Number(number) * (of in METRES ? METRES[of] / (METRES[unit] ?? 1) : 1);
-}
-
-function stepOf(option, text, unit) {
-    const [lo, hi] = SLIDERS[option], value = numberOf(text, unit);
-    if (value === Infinity) return STEPS;
-    const top = STEPS - (option === "far");
-    return value > 0 ? Math.max(0, Math.min(top, Math.round(((Math.log10(value) - lo) / (hi - lo)) * STEPS))) : 0;
-}
+// Sliders are logarithmic; a slider writes a plain number of three digits. Each of its steps is two of the module's.
+const SLIDERS = ["near", "far"], STEPS = 500;
+const slide = (option, step) => page.engine.lengthAt(option, 2 * step, false);
+const stepOf = (option, text, unit = "") => Math.round(page.engine.stepOf(option, page.engine.length(text, unit)) / 2);
 
 export function buildSetup(index) {
     const letter = "AB"[index], root = $(index === 0 ? "#a" : "#b"), own = {};
@@ -42,7 +24,7 @@ export function buildSetup(index) {
     // A plane that is dragged pushes the other one before it.
     const push = (option) => {
         const setup = state.setups[index], other = option === "near" ? "far" : "near", beside = option === "near" ? 10 : -10;
-        const [near, far] = ["near", "far"].map((name) => numberOf(own[name].value || STARTS[name], setup.get("unit")));
+        const [near, far] = SLIDERS.map((name) => page.engine.length(own[name].value || STARTS[name], unitOf(setup)));
         if (!(near >= far)) return;
         own[other].value = slide(other, Math.max(stepOf(other, own[option].value) + beside, 0));
         setup.set(other, own[other].value);
@@ -143,7 +125,7 @@ export function buildSetup(index) {
 
 // The help of an option, as the commands have it, stands beside its control.
 export function explain() {
-    for (const input of document.querySelectorAll("[data-option], [data-slider]")) {
+    for (const input of $$("[data-option], [data-slider]")) {
         const verb = input.closest("[data-asks]")?.dataset.asks ?? "table", { option = input.dataset.slider } = input.dataset;
         input.title = takes[verb].get(option).help;
     }
@@ -156,6 +138,7 @@ function show(input, value) {
 }
 
 export const OTHER_WAY = { d3d: "reversed", reversed: "d3d", gl: "gl-reversed", "gl-reversed": "gl" };
+/** @type {[string, string, RegExp, (now: string) => string][]} */
 const PLAIN = [
     ["16-bit", "format", /^(unorm|d)16$/i, () => "unorm16"], ["24-bit", "format", /^(unorm|d)24$/i, () => "unorm24"],
     ["32-bit float", "format", /^(fp32|d32f)$/i, () => "fp32"], ["reversed", "mapping", /reversed/, (now) => OTHER_WAY[now] ?? "reversed"],
@@ -168,9 +151,9 @@ const STARTS = {
 };
 
 function showSliders(index) {
-    for (const option of Object.keys(SLIDERS)) {
+    for (const option of SLIDERS) {
         const given = state.setups[index].get(option) ?? STARTS[option], slider = fields[index][`${option}-slider`];
-        slider.value = stepOf(option, given, state.setups[index].get("unit"));
+        slider.value = stepOf(option, given, unitOf(state.setups[index]));
         slider.setAttribute("aria-valuetext", given);
     }
 }
@@ -184,7 +167,7 @@ export function showWorld(facts) {
         text.setAttribute("aria-invalid", known === undefined);
         slider.setAttribute("aria-valuetext", world[name]);
         if (known !== undefined) slider.value = known.step;
-        for (const at of slider.parentElement.querySelectorAll(".mark")) {
+        for (const at of $$(".mark", slider.parentElement)) {
             const i = Number(at.dataset.mark), is = state.setups[i] && facts[i]?.[mark];
             at.hidden = !is;
             if (!is) continue;
@@ -220,8 +203,8 @@ export function refuseSetup(index, text) {
 }
 
 function fillQuestions() {
-    for (const form of document.querySelectorAll("[data-asks]"))
-        for (const input of form.querySelectorAll("[data-option]"))
+    for (const form of $$("[data-asks]"))
+        for (const input of $$("[data-option]", form))
             show(input, state.asked[form.dataset.asks].get(input.dataset.option) ?? "");
 }
 
@@ -245,7 +228,7 @@ export function fill() {
     $("#b").hidden = !two;
     $("#add-b").setAttribute("aria-pressed", two);
     fillQuestions();
-    for (const input of document.querySelectorAll("[name=figure]")) input.checked = input.value === state.figure;
+    for (const input of $$("[name=figure]")) input.checked = input.value === state.figure;
 }
 
 // The GPU's findings here, for set-up A.

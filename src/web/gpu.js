@@ -9,6 +9,7 @@ const LOST = "the browser took the GPU away (its context is lost): the next try 
 
 let gl = null, clip, judged;
 
+/** @type {(text: string) => any} */
 const giveUp = (text) => {
     throw new Error(text);
 };
@@ -46,7 +47,8 @@ ${text}
 #line ${BEHIND}
 void main(){value_=floatBitsToUint(${name}(texelFetch(depths_,ivec2(gl_FragCoord.xy),0).r));}`);
 
-function texture(format, [width, height]) {
+function texture(format, size) {
+    const [width, height] = size;
     const made = gl.createTexture();
     gl.bindTexture(gl.TEXTURE_2D, made);
     gl.texStorage2D(gl.TEXTURE_2D, 1, format, width, height);
@@ -96,6 +98,7 @@ function withDepth(format, size, clear, draw, then, part = size) {
 
 const uniform = (program, name, as, value) => gl[`uniform1${as}`](gl.getUniformLocation(program, name), value);
 
+/** @type {((asked: any) => any)[]} */
 const GPU_ASKS = [
     () => {
         const named = gl.getExtension("WEBGL_debug_renderer_info");
@@ -138,7 +141,7 @@ const GPU_ASKS = [
             judged = functionOf(`${/\buniform\b/.test(source) ? "" : "uniform float near,far;"}\n#line 1\n${source}`, name);
         } catch (error) {
             const [, line, text] = /ERROR: \d+:(\d+): ([^\n\0]*)/.exec(error.message) ?? [null, BEHIND, error.message];
-            giveUp(line < BEHIND ? `line ${line}: ${text}` : text);
+            giveUp(Number(line) < BEHIND ? `line ${line}: ${text}` : text);
         }
         const given = [];
         for (let i = gl.getProgramParameter(judged, gl.ACTIVE_UNIFORMS); i-- > 0;) {
@@ -193,7 +196,7 @@ export function gpu(buffer, at) {
         });
         const wrong = gl.getError();
         if (wrong !== gl.NO_ERROR) giveUp(`the GPU refuses it, error ${wrong}`);
-        if (what === 0) [words[11], words[15]] = [gl.getParameter(gl.SUBPIXEL_BITS), clip === null];
+        if (what === 0) [words[11], words[15]] = [gl.getParameter(gl.SUBPIXEL_BITS), Number(clip === null)];
         say(said ?? "");
         return 0;
     } catch (error) {

@@ -141,7 +141,7 @@ export function createImagePanel({ $, make, aside, setup, camera, take, otherWay
     });
     $("#file").addEventListener("change", () => $("#file").files[0] && open($("#file").files[0]));
     for (const when of ["dragover", "drop"])
-        addEventListener(when, (event) => {
+        addEventListener(when, (/** @type {any} */ event) => {
             if (!event.dataTransfer.types.includes("Files")) return;
             event.preventDefault();
             if (when === "drop") open(event.dataTransfer.files[0]);

@@ -2,27 +2,14 @@
 // Panels show what the commands say; and what lies over a figure.
 import { join, plain, split } from "./command.js";
 import { createOver, numberAt, readFigure, stepAt } from "./figure.js";
-import { ask, refuseSetup, take } from "./form.js";
+import { ask, fill, refuseSetup, take } from "./form.js";
 import { count, drawnRefusals, later, refusalOf, showKnown, showPicture, want } from "./schedule.js";
-import { sheet, withoutCells } from "./sheet.js";
+import { sentences, sheet } from "./sheet.js";
 import {
-    $, commandOf, errorOf, fields, lengthFor, link, make, page, REFUSED, set, SHARED, state, unitOf, waysLine, world,
+    $, $$, commandOf, errorOf, fields, lengthFor, link, make, page, REFUSED, set, SHARED, state, unitOf, waysLine, world,
 } from "./state.js";
 
 // ---- What the panels show -----------------------------------------------------------------------------------------
-
-// The sentences of a report, put together again where they were wrapped: lines from the margin that end in a full stop.
-const ANSWER_LINES = 300;
-function answers(text) {
-    const all = [];
-    let open = false;
-    for (const line of text.split("\n", ANSWER_LINES)) {
-        if (/^[^\s-]/.test(line)) all.push(line);
-        else if (open && /^ {2}\S/.test(line)) all[all.length - 1] += line.slice(1);
-        open = all.length > 0 && line !== "" && !all.at(-1).endsWith(".");
-    }
-    return all.filter((line) => line.endsWith(".") && !/ {2}/.test(line)).join(" ");
-}
 
 export const [DARK, NARROW] = ["prefers-color-scheme: dark", "max-width: 40rem"].map((what) => globalThis.matchMedia?.(`(${what})`));
 export const theme = () => (page.printing ? "print" : (document.documentElement.dataset.theme ?? (DARK.matches ? "dark" : "light")));
@@ -73,7 +60,8 @@ function outputOf(panel, index) {
 
 const unescaped = (text) => text.replaceAll("&lt;", "<").replaceAll("&gt;", ">").replaceAll("&amp;", "&");
 export const observeWidths = () => new ResizeObserver((entries) => {
-    for (const { target, contentRect: { width } } of entries) {
+    for (const { target: one, contentRect: { width } } of entries) {
+        const target = /** @type {any} */ (one);
         const changes = target.width > 0 && width > 0 && target.width !== width;
         target.width = width;
         if (changes) later();
@@ -98,7 +86,7 @@ export const narrow = () => NARROW.matches && !page.printing;
 function showText(one, verb, { out: text, left }) {
     const whole = left > 0 ? `${plain(text)}\n... and ${Math.ceil(left / 1024)} KiB more: CSV has all\n` : plain(text);
     $("[data-output]", one).replaceChildren(...sheet(whole, narrow()));
-    if (verb !== "table") $(".answer", one).textContent = answers(withoutCells(plain(text)));
+    if (verb !== "table") $(".answer", one).textContent = sentences(plain(text));
 }
 
 // The outputs of a panel, those of set-ups that there are, and the command of one.
@@ -115,7 +103,7 @@ export function lineOf(verb, setup, one, colours = theme()) {
     return verb === "plot" ? [...line, ...(page.held === "" ? [] : ["--axes", page.held]), ...drawing(one, colours)] : line;
 }
 export const axesOf = ({ x, y }) => `${x.text},${y.text}`;
-const figures = () => [...document.querySelectorAll("[data-panel=plot][open] .figure:not([hidden])")];
+const figures = () => $$("[data-panel=plot][open] .figure:not([hidden])");
 export const axesNow = () => figures()[0]?.axes ?? null;
 
 function ghostOf(one, colours) {
@@ -172,7 +160,7 @@ function require(at, separation) {
 
 // The gap at the distance, where they lie on A's axes, and up to where each set-up resolves it.
 function required() {
-    const [{ gap, distance } = {}] = page.facts, all = [];
+    const { gap, distance } = page.facts[0] ?? {}, all = [];
     const known = page.facts.slice(0, state.setups.length).map((one, i) => ({ letter: state.setups.length > 1 ? "AB"[i] : "", ...one }));
     for (const { letter, resolved, enough, limit, distance: own } of known)
         if (enough) all.push({ letter, distance: resolved ? Infinity : limit ? (limit.value * distance.value) / own.value : null,
@@ -247,23 +235,33 @@ export function showOutput(panel, one, index, said) {
     if (!drawn) showText(one, verb, said);
     else if (refused === "") showFigure(one, said.out);
     $(".refused", one).textContent = plain(refused);
-    for (const part of one.querySelectorAll(".stage, [data-output], .saves")) part.hidden = refused !== "";
+    for (const part of $$(".stage, [data-output], .saves", one)) part.hidden = refused !== "";
 }
 
 export function showSetup(index, said) {
     refuseSetup(index, said.status === REFUSED ? errorOf(said) : "");
     if (drawnRefusals[index] !== refusalOf(state.setups[index])) showPicture();
 }
+
+// The panel that says which bias does, asked as the way out is.
+function askBias(changes) {
+    for (const [name, value] of Object.entries({ ...changes, separation: world.gap, at: world.distance })) state.asked.bias.set(name, value);
+    state.shown.add("bias");
+    fill();
+    later();
+    $("[data-panel=bias]").scrollIntoView({ block: "nearest" });
+}
+
 export function showWays() {
     const said = page.aside.known(waysLine());
     if (said === undefined || said === $("#ways").said) return;
     document.documentElement.dataset.answered = "";
-    const all = said.status === 0 ? JSON.parse(said.out).filter((one) => one !== null).slice(0, 3) : [];
+    const all = said.status === 0 ? JSON.parse(said.out).filter((one) => one !== null) : [];
     $("#ways").said = said;
     $("#ways").hidden = all.length === 0;
     $("#ways").replaceChildren(...all.map(({ text, set: changes, code }) => {
         const button = make("button", { type: "button" }, text);
-        button.addEventListener("click", () => ("gap" in changes ? ask("gap", changes.gap) : take(changes)));
+        button.addEventListener("click", () => ("gap" in changes ? ask("gap", changes.gap) : "api" in changes ? askBias(changes) : take(changes)));
         return make("span", {}, button, ...(code ? [" ", make("code", {}, code)] : []));
     }));
 }

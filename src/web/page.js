@@ -13,7 +13,7 @@ import { createPicture } from "./picture.js";
 import { heard, later, onScreen, release, showKnown, showPicture, showRun, want } from "./schedule.js";
 import { unpack } from "./unpack.js";
 import {
-    $, commandOf, fields, FIGURES, link, make, mapOf, page, pictured, pictureLines, refuse, SCHEMES, SECOND, set, setLink,
+    $, $$, commandOf, fields, FIGURES, link, make, mapOf, page, pictured, pictureLines, refuse, SCHEMES, SECOND, set, setLink,
     setTheme, shown, state, takes, unitOf, VERBS, words,
 } from "./state.js";
 
@@ -54,19 +54,19 @@ function listen() {
         fields[0].preset.value = target.value;
         fields[0].preset.dispatchEvent(new Event("change"));
     });
-    for (const [i, name] of ["gap", "distance"].entries()) {
-        $(`#${name}`).addEventListener("input", ({ target }) => ask(name, page.engine.lengthAt(i, Number(target.value), unitOf(state.setups[0]) !== "")));
+    for (const name of ["gap", "distance"]) {
+        $(`#${name}`).addEventListener("input", ({ target }) => ask(name, page.engine.lengthAt(name, Number(target.value), unitOf(state.setups[0]) !== "")));
         $(`#${name}-text`).addEventListener("input", ({ target }) => target.value.trim() && ask(name, target.value.replaceAll(" ", "")));
     }
     copies("#copy-profile", profileText);
     copies("#copy-commands", () => $("#link").textContent);
-    for (const panel of document.querySelectorAll("details[data-panel]"))
+    for (const panel of $$("details[data-panel]"))
         panel.addEventListener("toggle", () => {
             if (panel.open === state.shown.has(panel.dataset.panel)) return;
             state.shown[panel.open ? "add" : "delete"](panel.dataset.panel);
             later();
         });
-    for (const form of document.querySelectorAll("[data-asks]")) {
+    for (const form of $$("[data-asks]")) {
         form.addEventListener("submit", (event) => event.preventDefault());
         form.addEventListener("input", (event) => {
             const asked = state.asked[form.dataset.asks], { option } = event.target.dataset;
@@ -95,15 +95,15 @@ function listen() {
         }, true);
     addEventListener("hashchange", () => setLink(location.hash.slice(1)));
     addEventListener("resize", later);
-    for (const [when, is] of [["beforeprint", true], ["afterprint", false]])
+    for (const when of ["beforeprint", "afterprint"])
         addEventListener(when, () => {
-            page.printing = is;
+            page.printing = when === "beforeprint";
             showKnown();
         });
     const watch = new IntersectionObserver((entries) => {
         for (const { target, isIntersecting } of entries) onScreen[isIntersecting ? "add" : "delete"](target);
     });
-    for (const panel of document.querySelectorAll("[data-panel]")) watch.observe(panel);
+    for (const panel of $$("[data-panel]")) watch.observe(panel);
     DARK.addEventListener("change", later);
 }
 
@@ -118,7 +118,7 @@ const viewOf = (figure) => ({
 
 // Letters of the figures are measured as the page draws them.
 function measurer() {
-    const context = (inWorker ? new OffscreenCanvas(1, 1) : document.createElement("canvas")).getContext("2d");
+    const context = /** @type {any} */ (inWorker ? new OffscreenCanvas(1, 1) : document.createElement("canvas")).getContext("2d");
     return (text, size, bold) => {
         context.font = `${bold ? "bold " : ""}${size}px "DejaVu Sans", Verdana, sans-serif`;
         return context.measureText(text).width;
@@ -144,7 +144,7 @@ async function begin() {
     buildSetup(1);
     explain();
     listen();
-    const views = [...document.querySelectorAll("#picture figure")].slice(0, 2).map(viewOf);
+    const views = $$("#picture figure").slice(0, 2).map(viewOf);
     page.picture = createPicture({ views, engine: page.engine, play: $("#play") });
     const fragment = location.hash.slice(1);
     await setLink(""); // something to change, however long the link takes
@@ -166,7 +166,7 @@ async function begin() {
         camera: (all) => words([...state.setups[0]].filter(([name]) => all.includes(name))),
     });
     showPicture();
-    window.depthprec = { engine: page.engine, state: () => shown().map(join), set: setLink };
+    Object.assign(window, { depthprec: { engine: page.engine, state: () => shown().map(join), set: setLink } });
 }
 
 const NEEDED = "It needs WebAssembly and DecompressionStream, which browsers have since 2023.";

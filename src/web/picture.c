@@ -11,8 +11,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "bias/cmd_bias/call.h"
 #include "camera/cmd/setups.h"
 #include "camera/paste.h"
+#include "camera/profile.h"
 #include "core/append.h"
 #include "core/elementary.h"
 #include "report/number.h"
@@ -31,8 +33,9 @@ typedef struct axis {
     double lo, hi;
 } axis;
 
-enum { GAP, DISTANCE, AXES };
-static const axis axes[AXES] = {{"gap", 1e-4, 10.0}, {"distance", 0.1, 1e5}};
+enum { GAP, DISTANCE, AXES, NEAR = AXES, FAR, SLIDERS }; /* the first two are the picture's */
+static const axis axes[SLIDERS] = {
+    {"gap", 1e-4, 10.0}, {"distance", 0.1, 1e5}, {"near", 1e-3, 100.0}, {"far", 1.0, 1e7}};
 
 /* A length that was typed, and the unit in which what is beside it is said. */
 typedef struct typed {
@@ -46,6 +49,7 @@ static typed given[AXES];
 static const unit_row *scene; /* null where nothing says what a scene unit is */
 static draw_picture_count count;
 static paste engine;
+static bias_api biased;     /* by its rule, and in its words */
 static const char *undrawn; /* why there is no picture; null: there is one */
 
 static void let_go(void) {
@@ -90,18 +94,41 @@ static double in_metres(double value) {
 
 static int step_of(int which, double value) {
     const axis *a = &axes[which];
-    const double share = dp_log(in_metres(value) / a->lo) / dp_log(a->hi / a->lo);
-    return (int)rint(STEPS * fmin(fmax(share, 0.0), 1.0));
+    const double share = dp_log(fmax(value, a->lo) / a->lo) / dp_log(a->hi / a->lo);
+    return (int)rint(STEPS * fmin(share, 1.0));
 }
 
-/** Prints the length at a place of a slider, 0 to 1000: of the gap, 0, or the distance, 1; with a unit or without. */
-PAGE_EXPORT("picture_step") void picture_step(int which, int step, int named) {
-    const axis *a = &axes[which == DISTANCE ? DISTANCE : GAP];
+/** Prints the length at a place of a slider, 0 to 1000: of gap, distance, near or far, whose last is infinity; with a
+ * unit or without. */
+PAGE_EXPORT("length_at") void length_at(int which, int step, int named) {
+    const axis *a = &axes[which];
     const double at = a->lo * dp_pow(a->hi / a->lo, (double)step / STEPS);
     const char *name = named == 0 ? NULL : metric(at);
     const double there = name == NULL ? at : unit_convert(at, unit_find("m"), unit_find(name));
-    printf("%s%s", number_brief(number_of(there, DIGITS)).text, name != NULL ? name : "");
+    if (which == FAR && step == STEPS)
+        printf("inf");
+    else
+        printf("%s%s", number_brief(number_of(there, DIGITS)).text, name != NULL ? name : "");
     fflush(NULL);
+}
+
+/** The length of the first word in the unit that is the second, as a command reads it; NaN where it is none. */
+PAGE_EXPORT("length_value") double length_value(int n) {
+    char **words;
+    double value = (double)NAN;
+    const int argc = page_words(n, &words);
+    lengths in = {.unit = argc > 2 ? unit_find(words[2]) : NULL};
+    length_reader seen = {.in = &in};
+    if (argc < 2 || !length_read(&seen, words[1], strlen(words[1]), NUMBER_FAR, &value))
+        return (double)NAN;
+    return value;
+}
+
+/** The place of a length on a slider; what is finite is not at the last place of far. */
+PAGE_EXPORT("length_step") int length_step(int which, double value) {
+    if (isnan(value))
+        return 0;
+    return which == FAR && isfinite(value) ? (int)fmin(step_of(which, value), STEPS - 2) : step_of(which, value);
 }
 
 /** Prints a number of a figure: rounded up (1), down (-1) or to the nearest (0). */
@@ -135,6 +162,9 @@ static int make_of(const asked_line *line, char **typed_words) {
             return EXIT_USAGE;
     scene = in.unit;
     engine = (paste){all->preset_count > 0 ? all->presets[0] : NULL, scene};
+    const char *api = camera_api(all);
+    const dp_spec spec = camera_to_spec(&camera_of(all, 0)->said);
+    biased = profile_bias(&all->gpu, all->platform, bias_api_find(api != NULL ? api : "d3d11"), &spec.format);
     return make(all);
 }
 
@@ -169,7 +199,7 @@ static double reach_of(const dp_setup *setup) {
 
 static void print_place(const char *name, int which, double value, int way, const char *end) {
     if (isfinite(value))
-        printf("\"%s\": {\"step\": %d, \"value\": %s, \"text\": \"%s\"}%s", name, step_of(which, value),
+        printf("\"%s\": {\"step\": %d, \"value\": %s, \"text\": \"%s\"}%s", name, step_of(which, in_metres(value)),
                number_full(value).text, length_in(which, value, way).text, end);
     else
         printf("\"%s\": null%s", name, end);
@@ -315,6 +345,21 @@ static bool print_other(const dp_spec *asked, bool reversed, bool as_float) {
     return true;
 }
 
+/* What lies in front moved nearer by the gap, as the command bias says it. */
+static void print_bias(void) {
+    dp_spec spec = picture.asked.spec;
+    dp_setup setup;
+    char changes[TEXT_SIZE];
+    spec.model = DP_MODEL_EXACT;
+    if (dp_setup_init(&setup, &spec) != DP_OK)
+        return;
+    const bias_goal goal = {.api = &biased, .factor = bias_factor_least(&setup), .gap = given[GAP].value};
+    const double units = bias_signed(&setup, bias_needed(&setup, &goal, given[DISTANCE].value));
+    snprintf(changes, sizeof changes, "\"api\": \"%s\"", biased.name);
+    if (!isnan(units) && isfinite(goal.factor))
+        print_way("Bias what is in front", changes, bias_call(&biased, units, bias_sign(&setup) * goal.factor).text);
+}
+
 static void print_ways(void) {
     char text[TEXT_SIZE], changes[TEXT_SIZE], code[TEXT_SIZE];
     dp_spec spec = picture.asked.spec;
@@ -333,6 +378,7 @@ static void print_ways(void) {
         print_other(&spec, true, true);
     if (!isfinite(picture.guaranteed))
         return;
+    print_bias();
     const number_text apart = length_in(GAP, picture.guaranteed, 1);
     snprintf(text, sizeof text, "Set them %s apart", apart.text);
     char bare[sizeof apart.text] = "";

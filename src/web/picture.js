@@ -24,9 +24,7 @@ function createView({ canvas, onStatus }, engine) {
         set({ line, error }) {
             if (made === `${error}\0${line.join("\0")}`) return facts;
             made = `${error}\0${line.join("\0")}`;
-            const bytes = new TextEncoder().encode(line.map((word) => word.replaceAll("\0", "\ufffd") + "\0").join(""));
-            const room = exports.words(bytes.length); // may move the memory
-            new Uint8Array(memory.buffer, room, bytes.length).set(bytes);
+            engine.write(line, { exports, memory });
             const refused = error !== "" || exports.picture_set(line.length) !== 0, [out, err] = told();
             facts = refused ? { error: error || err.replace(/^depthprec: /, "").trim() } : JSON.parse(out);
             quietFor = LATELY + 1; // what was before counts no more

@@ -4,7 +4,7 @@ import { join } from "./command.js";
 import { fitQuestions, showWorld } from "./form.js";
 import { axesNow, axesOf, lineOf, outputsOf, outputsOver, showForce, showHeadlines, showOutput, showOver, showSetup, showWays } from "./outputs.js";
 import {
-    $, commandOf, errorOf, fields, MOST, page, pictureLines, refuse, REFUSED, SHARED, showAddress, shown, state, supersede, waysLine,
+    $, $$, commandOf, errorOf, fields, MOST, page, pictureLines, refuse, REFUSED, SHARED, showAddress, shown, state, supersede, waysLine,
 } from "./state.js";
 
 function hold() {
@@ -21,17 +21,19 @@ export function release() {
 
 export function count() {
     const { dataset } = document.documentElement;
-    dataset.updates = Number(dataset.updates ?? 0) + 1;
+    dataset.updates = String(Number(dataset.updates ?? 0) + 1);
 }
 
 // The page shows the set-ups' tables first, which say above what is resolved, then the panels, those on the screen
 // first.
 export const onScreen = new Set();
-export function outputs(colours) {
+/** @returns {{ panel?: any, one?: any, index?: number, line: string[], over?: boolean }[]} */
+export function outputs(colours = undefined) {
+    /** @type {ReturnType<outputs>} */
     const all = state.setups.map((setup, index) => ({ index, line: commandOf("table", setup) }));
     if (all.length === 0) return []; // the first answer comes before the first set-up
-    const panels = [...document.querySelectorAll("[data-panel][open]")];
-    for (const panel of panels.sort((a, b) => onScreen.has(b) - onScreen.has(a)))
+    const panels = $$("[data-panel][open]");
+    for (const panel of panels.sort((a, b) => Number(onScreen.has(b)) - Number(onScreen.has(a))))
         for (const [index, one] of outputsOf(panel).entries())
             all.push({ panel, one, index, line: lineOf(panel.dataset.panel, state.setups[index], one, colours) });
     all.splice(state.setups.length, 0, { panel: $("#ways"), line: waysLine(), over: true });
@@ -48,7 +50,7 @@ export function showKnown() {
         else if (panel === undefined) showSetup(index, said);
         else showOutput(panel, one, index, said);
     }
-    for (const panel of document.querySelectorAll("[data-panel]")) panel.classList.toggle("stale", late.has(panel));
+    for (const panel of $$("[data-panel]")) panel.classList.toggle("stale", late.has(panel));
     if (state.setups.length === 0) return;
     showOver();
     showWays();
@@ -70,18 +72,19 @@ export function heard(line, ms) {
 
 // While something is dragged, what took long the last time waits until the hand rests, as does what is not on the screen.
 const LONG_MS = 80, REST_MS = 200, cost = {};
-const costOf = ([verb, figure]) => (verb === "plot" ? `${verb} ${figure}` : verb);
+const costOf = (/** @type {string[]} */ [verb, figure]) => (verb === "plot" ? `${verb} ${figure}` : verb);
 const atMost = ({ line }) => [line, line[0] === "plot" ? Infinity : MOST];
 
 export function want() {
-    const urgent = ({ panel, line }) => panel === undefined || (onScreen.has(panel) && !(cost[costOf(line)] > LONG_MS));
+    const urgent = (/** @type {{ panel?: any, line: string[] }} */ { panel, line }) => panel === undefined || (onScreen.has(panel) && !(cost[costOf(line)] > LONG_MS));
     page.aside.want(outputs().filter((one) => page.resting === null || urgent(one)).map(atMost));
 }
 
 export function update(dragged = false) {
     fitQuestions();
     for (const own of fields) own.showPlain();
-    for (const panel of document.querySelectorAll("details[data-panel]")) panel.open = state.shown.has(panel.dataset.panel);
+    for (const panel of $$("details[data-panel]")) panel.open = state.shown.has(panel.dataset.panel);
+    $("#why").hidden = state.figure !== "staircase" || state.setups.some((setup) => setup.has("ortho"));
     $("#link").textContent = shown().map((line) => `depthprec ${join(line)}`).join("\n");
     showPicture();
     clearTimeout(page.resting);
@@ -140,7 +143,7 @@ export function refusalOf(setup) {
 }
 
 export function showPicture() {
-    const lines = pictureLines(), [, second] = document.querySelectorAll("#picture figure");
+    const lines = pictureLines(), [, second] = $$("#picture figure");
     second.hidden = lines.length === 1;
     drawnRefusals = state.setups.map(refusalOf);
     const facts = page.facts = page.picture.set(lines.map((line, i) => ({ line, error: drawnRefusals[i] ?? "" })));

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The text of a command as tables and what stands around them, to the byte: the module parts the cells of a table by
-// U+001F, see report/output.h.
+// U+001F and marks sentences by U+001E, see report/output.h.
 
-const CELL = "\x1f", MOST_ROWS = 200; // of longer tables the rest stays text
+const CELL = "\x1f", SENTENCE = "\x1e", MOST_ROWS = 200; // of longer tables the rest stays text
 const NUMERIC = /^\s*([-+<~.\d]|inf|none|blind)/;
 // A reader wants to know this first, where there is no room for all.
 const KEYS = ["slanted", "guaranteed", "interval", "error"];
 
-export const withoutCells = (text) => text.replaceAll(CELL, "");
+const unmarked = (text) => text.replaceAll(CELL, "").replaceAll(SENTENCE, "");
+
+// What a report says in sentences, as one line.
+export const sentences = (text) => text.split(SENTENCE).filter((_, i) => i % 2 === 1).map((one) => one.replaceAll(/\n +/g, " ")).join(" ");
 
 function rowOf(line, order, numbers, head) {
     const cells = line.split(CELL).slice(1), all = document.createElement("tr");
@@ -21,10 +24,11 @@ function rowOf(line, order, numbers, head) {
     return all;
 }
 
-function tableOf([head, ...lines], narrow) {
+function tableOf(rows, narrow) {
+    const [head, ...lines] = rows;
     const titles = head.split(CELL).slice(1), all = document.createElement("table");
     const numbers = titles.map((_, i) => lines.every((line) => NUMERIC.test(line.split(CELL)[i + 1])));
-    const rest = titles.map((_, i) => i), place = (i) => (KEYS.indexOf(titles[i].trim()) + 1 || 9) - 9 * (i === 0);
+    const rest = titles.map((_, i) => i), place = (i) => (KEYS.indexOf(titles[i].trim()) + 1 || 9) - (i === 0 ? 9 : 0);
     const order = narrow ? rest.sort((a, b) => place(a) - place(b)) : rest;
     all.createTHead().append(rowOf(head, order, numbers, true));
     all.createTBody().append(...lines.map((line) => rowOf(line, order, numbers, false)));
@@ -38,7 +42,7 @@ export function sheet(text, narrow) {
         if (kind === true) parts.push(tableOf(from.splice(0, MOST_ROWS), narrow));
         if (from.length === 0) return;
         const pre = document.createElement("pre");
-        pre.textContent = withoutCells(from.join(""));
+        pre.textContent = unmarked(from.join(""));
         parts.push(pre);
     };
     for (const line of text.split(/(?<=\n)/)) {

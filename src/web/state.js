@@ -6,7 +6,10 @@ import { fill } from "./form.js";
 import { theme } from "./outputs.js";
 import { count, outputs, update, want } from "./schedule.js";
 
+/** An element. @type {(selector: string, root?: ParentNode) => any} */
 export const $ = (selector, root = document) => root.querySelector(selector);
+/** All such elements. @type {(selector: string, root?: ParentNode) => any[]} */
+export const $$ = (selector, root = document) => [...root.querySelectorAll(selector)];
 
 export function make(name, attributes = {}, ...children) {
     const element = document.createElement(name);
@@ -19,7 +22,7 @@ export function make(name, attributes = {}, ...children) {
 
 export const VERBS = ["table", "plot", "solve", "bias", "budget", "zfight", "prepass"];
 export const FIGURES = {
-    interval: "what is resolved", error: "error", distribution: "codes per metre", budget: "causes", share: "codes beyond", map: "which near and far",
+    interval: "what is resolved", error: "error", distribution: "codes per metre", budget: "causes", share: "codes beyond", map: "which near and far", staircase: "why reversed floats",
 };
 const LETTERS = { near: "-n", far: "-f", format: "-F", mapping: "-m" };
 // Options of the panels, and of a picture, are not those of a set-up.
@@ -39,6 +42,7 @@ const UNUSED = {
     interval: ["at"], error: ["at", "tolerance", ...VIEW], distribution: ["at", "tolerance", ...VIEW],
     budget: ["at", "model"],
     share: ["at", "tolerance", ...VIEW], map: ["tolerance", ...VIEW],
+    staircase: ["format", "mapping", "model", "arith", "at", "tolerance", ...VIEW], // it draws four of few codes
 };
 export const VIEWPORT = "1920x1080"; // at any slant is said of a view alone
 const STANDARD = `table -n 0.1 -f 1000 -F unorm24 -m d3d --unit m --viewport ${VIEWPORT} ; page table=shut`;

@@ -180,7 +180,30 @@ async function map() {
     await close(page);
 }
 
+// Why floats are reversed: codes of a few bits between the planes of the set-up, and a sentence a step.
+async function why() {
+    const page = await open(), run = () => page.locator("[data-panel=plot] [data-run]").first().getAttribute("data-run");
+    const sentences = () => page.locator("#why:visible li").allTextContents();
+    demand((await sentences()).length === 0, "they stand under another figure");
+    await page.click("#figure-staircase");
+    await settled(page);
+    for (const [near, line] of [["0.1", "plot staircase -n 0.1 -f 1000 --unit m"], ["2", "plot staircase -n 2 -f 1000 --unit m"]]) {
+        await page.fill("#near-A", near);
+        await page.waitForTimeout(400);
+        await settled(page);
+        const [said] = await native([[...line.split(" "), "--type", "svg", "-o", "-"]]), alt = await page.locator("[data-panel=plot] .stage > img").first().getAttribute("alt");
+        demand((await run()) === line && said.out.includes(alt) && alt.includes("float3.3b5 reversed"), `${await run()}: ${alt}`);
+        demand((await sentences()).length === 3, `${(await sentences()).length} sentences`);
+    }
+    await page.setChecked("#ortho-A", true);
+    await page.waitForTimeout(400);
+    await settled(page);
+    demand((await sentences()).length === 0, "1/z in an orthographic view");
+    await close(page);
+}
+
 export async function figures() {
+    await test("why floats are reversed: few bits, live, in three steps", why);
     await test("the crosshair reads out the curves of each figure, by pointer and keys", crosshair);
     await test("A and B share axes, which stand still while dragging; the curves of before lie under them", axes);
     await test("a requirement is dragged, by keys too, and what fails of it is marked", requirement);
