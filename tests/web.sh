@@ -48,6 +48,10 @@ commands() {
     node --no-warnings tests/web/same.mjs "$B/web/depthprec.wasm" "$scratch/engine.mjs" $commands
 }
 
+lengths() {
+    node --no-warnings tests/web/lengths.mjs "$B/web/depthprec.wasm" "$scratch/engine.mjs"
+}
+
 addresses() {
     cp src/web/command.js "$scratch/command.mjs"
     node --no-warnings tests/web/fuzz.mjs "$scratch/command.mjs" $addresses
@@ -93,17 +97,6 @@ check "no local of a module of the page hides what it imports" empty hidden
 flickers() {
     cp src/web/picture.js "$scratch/picture.mjs" && node tests/web/picture.mjs "$scratch/picture.mjs"
 }
-units() { # where a slider stands for a text: each unit that the program knows is as long there as here
-    "$DEPTHPREC" table -n 1parsec 2>&1 | sed -n 's/.* nm,/nm,/p' | tr -cs 'a-z' '\n' | grep -xE 'nm|um|mm|cm|m|km|in|ft' >"$scratch/units"
-    [ "$(wc -l <"$scratch/units")" -eq 8 ] || return
-    while read -r unit; do
-        here=$("$DEPTHPREC" table -n "1$unit" -f 10km --unit m --json | sed -n 's/.*"near": *\([-+.e0-9]*\),.*/\1/p' | head -n 1)
-        there=$(sed -n 's/^export const METRES = {.*[{ ]'"$unit"': \([-+.e0-9]*\)[, }].*/\1/p' src/web/form.js)
-        awk -v a="$here" -v b="$there" -v unit="$unit" 'BEGIN {
-            if (a == "" || b == "" || a - b > 1e-12 * a || b - a > 1e-12 * a) { print unit " is " a ", of the page " b; exit 1 } }' || return
-    done <"$scratch/units"
-}
-check "each unit is as long for the page's sliders" units
 if command -v node >"$scratch/log" 2>&1; then
     check "when a picture is said to flicker" flickers
 else
@@ -121,6 +114,7 @@ else
     check "the module imports nothing" self_contained
     check "the program is built" make --no-print-directory B="$B" CC="$CC" "$B/web/depthprec.wasm"
     check "random commands print the same" commands
+    check "lengths of the page's sliders are the program's" lengths
     check "any address is commands or a sentence" addresses
 fi
 finish

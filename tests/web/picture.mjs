@@ -15,7 +15,7 @@ const memory = { buffer: new ArrayBuffer(640 * 360 * 4) }, play = element({ clos
 let wrong = 0, told = "", quiet, time = 0, drawn = 0;
 const exports = { words: () => 0, picture_set: () => ((told = '{"name": "camera"}'), 0), picture_pixels: () => 0,
     picture_draw: () => (drawn++, wrong), picture_say: (still) => { told = `text ${still}`; quiet = still === 1; } };
-const engine = { instance: () => ({ exports, memory, streams: { text: () => told } }) };
+const engine = { write() {}, instance: () => ({ exports, memory, streams: { text: () => told } }) };
 const canvas = { width: 640, height: 360, getContext: () => ({ putImageData() {} }) };
 const picture = createPicture({ views: [{ canvas, onStatus() {} }], engine, play });
 assert.equal(picture.set([{ line: ["2cm", "200m", "table"], error: "" }])[0].name, "camera", "what is known of it");
