@@ -154,14 +154,12 @@ static int enter(const dp_batch *b, double *z) {
     return *z >= s->znear && *z <= s->zfar;
 }
 
-/* The number of a task whose result is no code, at an eye depth; `g` is prepared. */
-static double number_at(const dp_batch *b, const dp_guarantee *g, double z) {
+/* The number of a task whose result is no code, at an eye depth. */
+static double number_at(const dp_batch *b, double z) {
     const dp_setup *s = &b->setup;
     if (!enter(b, &z))
         return (double)NAN;
-    return b->task == DP_TASK_WINDOW       ? dp_window(s, z)
-           : b->task == DP_TASK_SEPARATION ? dp_guarantee_at(g, z)
-                                           : dp_cell_of(s, dp_code(s, z)).width;
+    return b->task == DP_TASK_WINDOW ? dp_window(s, z) : dp_cell_of(s, dp_code(s, z)).width;
 }
 
 /* Outward, where a bound becomes a float. */
@@ -171,12 +169,29 @@ static double outward(const dp_batch *b, double wide) {
     return (double)(b->task == DP_TASK_LO ? dp_float_down(wide) : dp_float_up(wide));
 }
 
+/* All at once, because many together take less; NaN beyond the planes. */
+static void run_separations(const dp_batch *b, const unsigned char *from, unsigned char *to, size_t count) {
+    const dp_guarantee guarantee = dp_guarantee_make(&b->setup);
+    double z[BLOCK], found[BLOCK];
+    unsigned char inside[BLOCK];
+    for (size_t i = 0; i < count; i++) {
+        z[i] = read_real(b, from + i * b->in_size);
+        inside[i] = (unsigned char)enter(b, &z[i]);
+        if (!inside[i])
+            z[i] = b->setup.spec.znear;
+    }
+    dp_guarantee_many(&guarantee, z, found, count);
+    for (size_t i = 0; i < count; i++)
+        write_real(b, to + i * b->out_size, outward(b, inside[i] ? found[i] : (double)NAN));
+}
+
 /* One by one. */
 static void run_plain(const dp_batch *b, const unsigned char *from, unsigned char *to, size_t count) {
     const dp_spec *spec = &b->setup.spec;
-    dp_guarantee guarantee;
-    if (b->task == DP_TASK_SEPARATION)
-        guarantee = dp_guarantee_make(&b->setup);
+    if (b->task == DP_TASK_SEPARATION) {
+        run_separations(b, from, to, count);
+        return;
+    }
     for (size_t i = 0; i < count; i++, from += b->in_size, to += b->out_size)
         switch (b->task) {
         case DP_TASK_CODE:
@@ -201,12 +216,10 @@ static void run_plain(const dp_batch *b, const unsigned char *from, unsigned cha
             write_real(b, to, outward(b, dp_cell_of(&b->setup, read_code(b, from)).hi));
             break;
         case DP_TASK_SEPARATION:
-            write_real(b, to, outward(b, number_at(b, &guarantee, read_real(b, from))));
-            break;
         case DP_TASK_WINDOW:
         case DP_TASK_INTERVAL:
         default:
-            write_real(b, to, number_at(b, NULL, read_real(b, from)));
+            write_real(b, to, number_at(b, read_real(b, from)));
         }
 }
 

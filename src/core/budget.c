@@ -60,8 +60,7 @@ static double moved(double z, double share) {
     return isinf(z) ? z : z + fabs(z) * share;
 }
 
-/* At least what the lattice alone needs: no arithmetic before it makes two surfaces easier to tell apart. */
-static double with_lattice(const dp_setup *setup, double z, double needs) {
+double dp_with_lattice(const dp_setup *setup, double z, double needs) {
     if (dp_lattice_above(setup, z) <= needs)
         return needs;
     return larger(needs, isinf(z) ? HUGE_VAL : dp_lattice_exact(setup, z));
@@ -206,7 +205,7 @@ static void share_out(const dp_guarantee *g, double z, double longest, double wi
     const double apart = last_within(z1, longest) - z1;
     const double eye = dp_eye_rounding(z1, z1 + apart);
     const double pipeline_needs = (apart + eye) * DP_OUTWARD;
-    out->separation = with_lattice(g->setup, z, pipeline_needs);
+    out->separation = dp_with_lattice(g->setup, z, pipeline_needs);
     out->window = window;
     for (int i = 0; i < DP_CAUSE_COUNT; i++)
         out->cause[i] = part[i] > 0.0 ? apart * DP_OUTWARD * (part[i] / window) : 0.0;

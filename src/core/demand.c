@@ -35,10 +35,10 @@ static int codes_are_distinct(const dp_pipeline *p, double low, double high, dou
     return codes == ((double)last - (double)first) / step;
 }
 
-/* Clamped, no window depth is 1. */
+/* Clamped, no window depth is 1, nor is one below 0. */
 double dp_format_loss(const dp_pipeline *p, double low, double high, double grid) {
     const dp_format *format = &p->format;
-    const double top = smaller(high, 1.0 - DP_UNIT_BELOW_ONE);
+    const double top = smaller(larger(high, 0.0), 1.0 - DP_UNIT_BELOW_ONE);
     const double bottom = smaller(larger(low, 0.0), top);
     if (format->kind == DP_FORMAT_FLOAT) {
         /* With 23 bits as fine as binary32, but for subnormals that begin above those of binary32. */
