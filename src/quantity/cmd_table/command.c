@@ -115,7 +115,7 @@ static void *next_row(void *of, size_t i) {
         return NULL;
     }
     dp_sample_at(&t->setup, z, &r->sample); /* cannot fail: depths_resolve() has seen to it */
-    r->lattice = dp_separation(&t->exact, z);
+    r->lattice = t->setup.spec.model == DP_MODEL_EXACT ? r->sample.separation : dp_separation(&t->exact, z);
     r->guarantee = each_setup_guarantee(&t->each, z);
     if (!(t->uncertain <= z) && z < t->each.full.spec.zfar && !r->guarantee.certain)
         t->uncertain = z;
