@@ -16,6 +16,7 @@
 #include <strings.h>
 
 #include "core/append.h"
+#include "image/channel.h"
 #include "image/exr.h"
 #include "image/kind.h"
 
@@ -99,44 +100,6 @@ static bool is_flat(const reading *r, int part) {
            (storage == EXR_STORAGE_SCANLINE || storage == EXR_STORAGE_TILED);
 }
 
-/* How a name is looked for: as it is, or in any case, or as the last part behind a dot, or as the layer of a number. */
-typedef enum likeness { LIKE_SAME = 0, LIKE_CASE, LIKE_LAST, LIKE_LAYER } likeness;
-
-/* Where the last part of a name begins, "Z" of "ViewLayer.Depth.Z". */
-static size_t last_of(const char *name) {
-    const char *dot = strrchr(name, '.');
-    return dot != NULL ? (size_t)(dot - name) + 1 : 0;
-}
-
-/* The layer of the one number of a pixel, "ViewLayer.Depth.V"; grey has all colours, of which red is read. */
-static bool is_layer(const char *name, const char *wanted) {
-    static const char *const numbers[] = {"V", "R", "Y", "X"};
-    const size_t last = last_of(name), size = strlen(wanted);
-    const bool layer = last > size && strncasecmp(name + last - 1 - size, wanted, size) == 0 &&
-                       (last == size + 1 || name[last - 2 - size] == '.');
-    for (size_t i = 0; layer && i < sizeof numbers / sizeof numbers[0]; i++)
-        if (strcasecmp(name + last, numbers[i]) == 0)
-            return true;
-    return false;
-}
-
-static bool is_like(const char *name, const char *wanted, likeness how) {
-    if (how == LIKE_LAYER)
-        return is_layer(name, wanted);
-    if (how == LIKE_LAST)
-        return last_of(name) > 0 && strcasecmp(name + last_of(name), wanted) == 0;
-    return (how == LIKE_SAME ? strcmp(name, wanted) : strcasecmp(name, wanted)) == 0;
-}
-
-static bool names_depth(const char *name) {
-    static const char *const names[] = {"Z", "depth"};
-    bool depth = false;
-    for (size_t i = 0; i < 2; i++)
-        depth = depth || is_like(name, names[i], LIKE_CASE) || is_like(name, names[i], LIKE_LAST) ||
-                is_layer(name, names[i]);
-    return depth;
-}
-
 enum { NAME_SIZE = 256 };
 
 /* Behind the name of its part, where there are several. */
@@ -164,26 +127,26 @@ static const exr_attr_chlist_entry_t *find_entry(const reading *r, int part, con
 /* Another channel of its layer. */
 static const exr_attr_chlist_entry_t *find_beside(const reading *r, int part, const char *channel, const char *last) {
     char name[NAME_SIZE];
-    snprintf(name, sizeof name, "%.*s%s", (int)last_of(channel), channel, last);
+    snprintf(name, sizeof name, "%.*s%s", (int)channel_last(channel), channel, last);
     return find_entry(r, part, name);
 }
 
 /* Z of a place or of a normal. */
 static bool is_of_vector(const reading *r, int part, const char *channel) {
-    const bool small = channel[last_of(channel)] == 'z';
+    const bool small = channel[channel_last(channel)] == 'z';
     return find_beside(r, part, channel, small ? "x" : "X") != NULL &&
            find_beside(r, part, channel, small ? "y" : "Y") != NULL;
 }
 
-static bool fits(const reading *r, int part, const char *channel, const char *wanted, likeness how) {
+static bool fits(const reading *r, int part, const char *channel, const char *wanted, channel_likeness how) {
     char full[NAME_SIZE];
     full_name(r, part, channel, full);
-    if (how == LIKE_SAME || how == LIKE_LAYER)
-        return is_like(channel, wanted, how) || is_like(full, wanted, how);
-    return is_like(channel, wanted, how) && (strcasecmp(wanted, "Z") != 0 || !is_of_vector(r, part, channel));
+    if (how == CHANNEL_SAME || how == CHANNEL_LAYER)
+        return channel_is(channel, wanted, how) || channel_is(full, wanted, how);
+    return channel_is(channel, wanted, how) && (strcasecmp(wanted, "Z") != 0 || !is_of_vector(r, part, channel));
 }
 
-static bool find_like(reading *r, const char *wanted, likeness how) {
+static bool find_like(reading *r, const char *wanted, channel_likeness how) {
     int parts = 0;
     const exr_attr_chlist_t *list;
     r->call.exr_get_count(r->file, &parts);
@@ -237,20 +200,11 @@ static bool no_channel(reading *r) {
 static bool find_channel(reading *r) {
     const char *asked = r->source->asked.channel;
     if (asked != NULL)
-        return find_like(r, asked, LIKE_SAME) || no_channel(r);
-    for (likeness how = LIKE_CASE; how <= LIKE_LAYER; how++)
+        return find_like(r, asked, CHANNEL_SAME) || no_channel(r);
+    for (channel_likeness how = CHANNEL_CASE; how <= CHANNEL_LAYER; how++)
         if (find_like(r, "Z", how) || find_like(r, "depth", how))
             return true;
-    return find_like(r, "R", LIKE_CASE) || find_like(r, NULL, LIKE_SAME) || no_channel(r);
-}
-
-/* DWA knows colours by name, and takes what has other names as it is. */
-static bool is_colour(const char *channel) {
-    static const char *const colours[] = {"R", "G", "B", "Y", "RY", "BY"};
-    for (size_t i = 0; i < sizeof colours / sizeof colours[0]; i++)
-        if (strcasecmp(channel + last_of(channel), colours[i]) == 0)
-            return true;
-    return false;
+    return find_like(r, "R", CHANNEL_CASE) || find_like(r, NULL, CHANNEL_SAME) || no_channel(r);
 }
 
 /* Null where it gives back what it was given, as all do for whole numbers. */
@@ -265,9 +219,9 @@ static const char *lossy_name(const reading *r, exr_pixel_type_t type) {
     case EXR_COMPRESSION_B44A:
         return type == EXR_PIXEL_HALF ? "B44A" : NULL;
     case EXR_COMPRESSION_DWAA:
-        return type != EXR_PIXEL_UINT && is_colour(r->channel) ? "DWAA" : NULL;
+        return type != EXR_PIXEL_UINT && channel_is_colour(r->channel) ? "DWAA" : NULL;
     case EXR_COMPRESSION_DWAB:
-        return type != EXR_PIXEL_UINT && is_colour(r->channel) ? "DWAB" : NULL;
+        return type != EXR_PIXEL_UINT && channel_is_colour(r->channel) ? "DWAB" : NULL;
     default:
         return how < EXR_COMPRESSION_PXR24 ? NULL : "an unknown one";
     }
@@ -388,7 +342,8 @@ static bool holds_same(reading *r, const char *name, bool *same) {
 static bool compare_colours(reading *r) {
     static const char *const others[] = {"G", "B"};
     const exr_attr_chlist_entry_t *red = find_entry(r, r->part, r->channel);
-    for (size_t i = 0; i < 2 && r->out->unlike == NULL && strcasecmp(r->channel + last_of(r->channel), "R") == 0; i++) {
+    for (size_t i = 0; i < 2 && r->out->unlike == NULL && strcasecmp(r->channel + channel_last(r->channel), "R") == 0;
+         i++) {
         const exr_attr_chlist_entry_t *entry = find_beside(r, r->part, r->channel, others[i]);
         bool same =
             entry == NULL || (entry->pixel_type == red->pixel_type && entry->x_sampling == 1 && entry->y_sampling == 1);
@@ -450,7 +405,7 @@ static bool read_file(reading *r) {
         return false;
     char name[NAME_SIZE];
     full_name(r, r->part, r->channel, name);
-    r->out->named_depth = names_depth(name);
+    r->out->named_depth = channel_of_depth(name);
     snprintf(r->out->channel, sizeof r->out->channel, "%.*s", IMAGE_NAMES_SIZE - 1, name);
     name_channels(r, r->out->others, sizeof r->out->others);
     return read_samples(r) && (r->source->asked.channel != NULL || compare_colours(r)) && show(r);
