@@ -82,10 +82,11 @@ static shadow_drawn seen_with(shadow_drawing *d, const shadow_scene *scene, shad
 /* Window depth of the plane where the light sees it at u, v, away from the light; by the plane alone. */
 static long double depth_at(const shadow_light *l, const shadow_scene *s, long double u, long double v) {
     const double *n = s->plane.normal;
-    const long double kappa = l->setup.kappa, size = l->triangles.width, h = tanl((long double)l->fov * pi / 360);
+    const long double kappa = l->setup.kappa, size = l->triangles.width;
     const long double x = 2 * u / size - 1, y = 2 * v / size - 1;
     if (l->kind == SHADOW_SUN)
         return ((long double)s->plane.distance - n[0] * x * l->width / 2 - n[1] * y * l->height / 2) / n[2] / kappa;
+    const long double h = tanl((long double)l->fov * pi / 360);
     return -((n[0] * x + n[1] * y) * h + n[2]) / ((long double)s->plane.distance * kappa);
 }
 
@@ -97,11 +98,12 @@ static void nearest_texel(const shadow_light *l, const shadow_scene *s, double u
     for (int y = (int)v - 4; y <= (int)v + 4; y++)
         for (int x = (int)u - 4; x <= (int)u + 4; x++) {
             const double off = fmax(fabs(x + 0.5 - u), fabs(y + 0.5 - v));
+            if (off > l->kernel + 0.01)
+                continue;
             const long double nearer = here - depth_at(l, s, x + 0.5L, y + 0.5L);
+            by[1] = fmaxl(by[1], nearer);
             if (off <= l->kernel - 0.01)
                 by[0] = fmaxl(by[0], nearer);
-            if (off <= l->kernel + 0.01)
-                by[1] = fmaxl(by[1], nearer);
         }
 }
 
