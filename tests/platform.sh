@@ -27,7 +27,7 @@ found() { # found FILE PLATFORM FORMAT: the format of the two that the image has
 while IFS='|' read -r platform options; do
     platform=$(echo $platform)
     check "scene: $platform" alike "$platform" $options -- $model
-    check "texture: $platform" alike "$platform" $(echo "$options" | sed 's/--arith.*//') -- texture --synthetic decals
+    check "texture: $platform" alike "$platform" $(echo "$options" | sed 's/--arith.*//') -- texture --synthetic decals --size 160x90
 done <<'END'
 safari      | -F fp32 -m d3d --arith ieee --raster spec-vulkan --api webgpu
 chrome-d3d  | -F fp32 -m d3d --arith ieee --raster spec-d3d --api webgpu

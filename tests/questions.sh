@@ -333,10 +333,10 @@ retired='to be had|drawn from|a limit is|an element|different codes|stands for|s
 |nothing is monotone|ariths|to us|hangs on|an octave of|ought to|in spite of|has no meaning'
 
 free_of() { # free_of WORDS: no text has them, wherever its lines break
-    [ -s "$scratch/text/list" ] || return
-    for file in "$scratch"/text/*; do
-        tr -s ' \n' '  ' <"$file" | lines -owE -e ".{0,30}($1).{0,20}" | sed "s|^|${file##*/}: |"
-    done
+    [ -s "$scratch/lines/list" ] && lines -lF -e "$1" -r "$scratch/lines" >"$scratch/having" || return
+    while read -r file; do
+        grep -oE -e ".{0,30}$1.{0,20}" "$file" | sed "s|^|${file##*/}: |"
+    done <"$scratch/having"
 }
 
 narrow() { # help and lists are at most 80 columns wide
@@ -345,6 +345,9 @@ narrow() { # help and lists are at most 80 columns wide
 }
 
 check "the text of the pages, of help and of lists" everything
+mkdir "$scratch/lines" && for file in "$scratch"/text/*; do
+    tr -s ' \n' '  ' <"$file" >"$scratch/lines/${file##*/}"
+done
 echo "$retired" | tr '|' '\n' >"$scratch/retired"
 while read -r words; do
     [ -z "$words" ] || check "no text says \"$words\"" empty free_of "$words"
