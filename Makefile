@@ -97,7 +97,7 @@ PARALLEL = --no-print-directory --output-sync=target $(if $(findstring -j,$(MAKE
 
 .DELETE_ON_ERROR:
 .PHONY: all lib programs man demo packages
-all: lib programs
+all: programs lib # in this order: without the libraries make says so before it compiles
 lib: $(B)/libdepthprec.a $(B)/libdepthprec.so.0
 programs: $(B)/depthprec
 
