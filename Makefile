@@ -60,9 +60,10 @@ FUZZ_PROGRAMS := $(patsubst tests/fuzz/%.c,$(B)/%,$(FUZZ))
 
 CFLAGS ?= $(or $(OPTIMIZE_$(CONF)),-O1 -g)
 OPTIMIZE_release := -O3
-OPTIMIZE_asan := -O2 -g
+# Sanitizers print lines: of what a debugger knows no more is made.
+OPTIMIZE_asan := -O2 -g1
 # A test program is compiled more often than it runs long; what tests compute for long stands in their other files.
-CFLAGS_TESTS := $(if $(filter file,$(origin CFLAGS)),-O1 $(filter -g,$(CFLAGS)),$(CFLAGS))
+CFLAGS_TESTS := $(if $(filter file,$(origin CFLAGS)),-O1 $(filter -g%,$(CFLAGS)),$(CFLAGS))
 
 SANITIZE := address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 # No loop with sanitizers in it becomes vectors. That they are there gcc says by this macro, clang by another word.
@@ -370,7 +371,8 @@ SHELL_TESTS := $(filter-out $(TOOLS),$(wildcard tests/*.sh))
 # that test_values_* and these scripts compute anew none that it has not had of the same commands in cli.sh.
 ONCE := $(patsubst %,tests/%.sh,layers headers install readme can_fail mutants aims cameras python npm web gappa engines \
     public_models vtk plots examples questions same seeds judge_code) $(B)/tests/test_values_%
-RUN_TESTS = $(if $(filter release,$(CONF)),$(TEST_PROGRAMS) $(SHELL_TESTS),$(filter-out $(ONCE),$(TEST_PROGRAMS) $(SHELL_TESTS)))
+# The scripts come first, which take longest: at the end no core waits for one of them.
+RUN_TESTS = $(filter-out $(if $(filter release,$(CONF)),,$(ONCE)),$(SHELL_TESTS) $(TEST_PROGRAMS))
 
 check:
 	@sh src/packages.sh check
@@ -503,13 +505,13 @@ lint-types:
 	$(Q)if why=$$(B=$(B) sh tests/web/packages.sh); then $(B)/web/node_modules/.bin/tsc -p tests/web; \
 	else echo "left out: types of the page's scripts, as $$why"; fi
 
-# What is not built on the way by clang with sanitizers is judged, too: benchmarks and fuzz targets.
+# Benchmarks and fuzz targets, too. AFTER_ASAN=1: what `make asan WERROR=-Werror`, which is clang as well, has not judged.
 lint-clang: $(B)/build.cflags $(B)/check.cflags
-	$(Q)clang -fsyntax-only -std=gnu11 $(INCLUDES) $(WARN_clang) -Werror $(EXACT) \
-	    @$(B)/build.cflags @$(B)/check.cflags $(filter-out $(PAGE) $(WINDOWS),$(ALL_C))
+	$(Q)clang -fsyntax-only -std=gnu11 $(INCLUDES) $(WARN_clang) -Werror $(EXACT) @$(B)/build.cflags @$(B)/check.cflags \
+	    $(filter-out $(PAGE) $(WINDOWS) $(if $(AFTER_ASAN),$(CORE) $(ROOMS) $(TESTS) $(SUPPORT)),$(ALL_C))
 
 lint-cppcheck:
-	$(Q)cppcheck -q --std=c11 --error-exitcode=1 --inline-suppr --enable=warning,performance,portability \
+	$(Q)cppcheck -q -j$(JOBS) --std=c11 --error-exitcode=1 --inline-suppr --enable=warning,performance,portability \
 	    --suppress=missingIncludeSystem -Iinclude -Isrc src
 
 lint-man: $(MAN)
@@ -587,7 +589,7 @@ help:
 ## make demo        install what is missing, build, print the table of one camera and draw its figures
 ## make             build the library and the program into build/: needs cairo, GSL, jansson, libpng and zlib. Of OpenEXR, TIFF,
 ##                  assimp, Vulkan, EGL and GL it uses the headers that are here: tables and figures need none
-## make check       install what is missing, build, run the tests: some 7 minutes on two cores
+## make check       install what is missing, build, run the tests: some 10 minutes on two cores
 ##                  what is left out because a program is not here it names last, with what installs it
 ## make check-full  4 times the cases (DEPTHPREC_FULL=1000 in front of one test: all), and check-web, check-probe, cross,
 ##                  cross-windows and check-dist: hours, before a release (Debian)
