@@ -367,7 +367,7 @@ const char *written_only(const char *file, bool hlsl, char name[WRITTEN_NAME_SIZ
         }
     listing_free(&s);
     if (count == 0)
-        append(error, WRITTEN_TEXT_SIZE, " none");
+        append(error, WRITTEN_TEXT_SIZE, " none; values of one are for --pairs");
     return count == 1 ? name : NULL;
 }
 

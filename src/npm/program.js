@@ -133,6 +133,7 @@ export function begin({ Camera, DepthprecError, USUAL, only }) {
     }
 
     const object = (of, what) => {
+        if (of instanceof Camera) throw new TypeError(`${what} must be an object, which may have the camera: { camera, ... }`);
         if (typeof of !== "object" || of === null || Array.isArray(of) || ArrayBuffer.isView(of)) throw new TypeError(`${what} must be an object`);
         return of;
     };

@@ -80,6 +80,7 @@ test("presets have the planes of the program's list", async () => {
     await refuses(() => Camera.preset("unity", { unit: "parsec" }), /^unit: must be/);
     await refuses(() => solve({ near: 1, nera: 3 }), /^unknown option 'nera'; did you mean 'near'/);
     await refuses(() => bias({ camera, logC: 3, at: 3 }), /^logC: needs one/);
+    await assert.rejects(() => bias(camera, { at: 3 }), /^TypeError: options must be an object, which may have the camera: \{ camera/);
     await refuses(() => run("solve --nera 3"), /^unknown option '--nera'; did you mean '--near'/);
     const core = await import("depthprec/core");
     assert.deepEqual(Object.keys(core).sort(), ["Camera", "DepthprecError", "version"]);
