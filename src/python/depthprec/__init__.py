@@ -410,7 +410,7 @@ class Camera:
         else:
             batch = _core.Batch()
             _core.demand(_core.batch_init(batch, setup, _core.TASK[task], real, word, _core.path_best()))
-            call = _partial(_core.batch_run, batch)
+            call = _partial(_core.batch_run, _ctypes.byref(batch))
         made = self._calls[name, read, write] = call, not windows and name not in Decoded._fields
         return made
 

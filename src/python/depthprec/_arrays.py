@@ -15,6 +15,7 @@ _INTEGERS = {1: "bB", 2: "hH", 4: "iI", 8: "qQ"}  # by how many bytes they have,
 _NAMES = {"e": "float16", "f": "float32", "d": "float64"}
 KINDS = {order + code: code for order in _HERE for code in "fdbBhHiIlLqQnN"}
 REALS = {format for format, code in KINDS.items() if code in "fd"}
+_PLAIN = {array.array, memoryview}  # types that have no mask; numpy's, once it is met
 _lent = (ctypes.c_char * 0).from_buffer
 _LENDS = sys.implementation.name == "cpython"  # memory that cannot be written has an address, too
 
@@ -80,6 +81,11 @@ def whole(value, what):
 
 def refuse_mask(values):
     """The memory of a masked array of numpy says nothing of its mask."""
+    kind = type(values)
+    if kind in _PLAIN:
+        return
+    if kind.__module__ == "numpy" and kind.__name__ == "ndarray":
+        _PLAIN.add(kind)
     masked = getattr(sys.modules.get("numpy.ma"), "MaskedArray", None)
     if masked is not None and isinstance(values, masked) and values.mask.any():
         raise ValueError("an array must have no mask, which would be lost: .filled(numpy.nan), or of integers .filled(0), "
