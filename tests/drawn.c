@@ -325,6 +325,15 @@ static void check_legend(const drawn *d) {
     }
 }
 
+/* All words stand on the page, none cut at its rim. */
+static void check_words(const drawn *d) {
+    for (size_t i = 0; i < d->svg->count; i++) {
+        const svg_mark *m = &d->svg->marks[i];
+        if (m->kind == SVG_WORDS && !(m->box.y0 >= 2 * d->scale && m->box.y1 <= d->svg->height))
+            fail_msg("'%s' stands from %g to %g on a page of %g", m->text, m->box.y0, m->box.y1, d->svg->height);
+    }
+}
+
 static drawn *read_page(const drawn_theme *look, const void *bytes, size_t size, double width, double height) {
     drawn *d = calloc(1, sizeof *d);
     assert_non_null(d);
@@ -343,6 +352,7 @@ static drawn *read_page(const drawn_theme *look, const void *bytes, size_t size,
     read_legend(d);
     check_legend(d);
     check_title(d);
+    check_words(d);
     return d;
 }
 

@@ -89,7 +89,7 @@ static uint64_t scale(uint64_t m, int e, int k) {
     return shift >= 0 && shift < 128 ? (uint64_t)(product >> shift) : 0;
 }
 
-/* Like %g: the first digit of n, which has as many as are wanted, stands for 10^exponent. */
+/* Like %g: the first digit of n, which has as many as are wanted, stands for 10^exponent; one more, a 0, is dropped. */
 static size_t write_general(uint64_t n, int exponent, bool negative, char *out) {
     char text[NUMBER_SIZE];
     char *start = out;
@@ -135,7 +135,7 @@ size_t number_quick(double value, char out[NUMBER_SIZE]) {
         const uint64_t off = rest > half ? unit - rest : rest;
         const bool carried = n == limit; /* 9.99... became 10 */
         if (digits == 17 || off + SLACK < half_ulp)
-            return write_general(carried ? n / 10 : n, exponent + carried, value < 0.0, out);
+            return write_general(n, exponent + carried, value < 0.0, out);
         if (off <= half_ulp + 1 + SLACK)
             return 0; /* whether it reads back is not certain */
     }

@@ -1072,3 +1072,26 @@ TEST(test_tables) {
     }
     tally_end(&t);
 }
+
+/* Who chose what is refused is told of this line alone, however many were read before it. */
+TEST(choosers_are_forgotten) {
+    static const char *const presets[] = {"--preset=unity", NULL, "--preset=bevy", "--near=0.1", "--preset=three"};
+    for (size_t i = 0; i < sizeof presets / sizeof presets[0]; i++) {
+        asked_line o = {.request = NULL};
+        char line[1024] = "", said[1024] = "", word[32] = "", want[64];
+        char *argv[4] = {(char[]){"depthprec"}, (char[]){"table"}, word};
+        snprintf(word, sizeof word, "%s", presets[i] != NULL ? presets[i] : "");
+        assert_int_equal(parsed(&o, presets[i] != NULL ? 3 : 2, argv, line), EXIT_FINE);
+        FILE *terminal = stderr;
+        stderr = fmemopen(said, sizeof said, "w");
+        option_error("far", "must be another");
+        fclose(stderr);
+        stderr = terminal;
+        options_release(&o);
+        const char *name = strncmp(word, "--preset=", 9) == 0 ? word + 9 : NULL;
+        snprintf(want, sizeof want, name != NULL ? "must be another; --preset %s chose it\n" : "must be another\n",
+                 name);
+        if (strstr(said, want) == NULL)
+            fail_msg("line %zu: '%s', not '%s'", i, said, want);
+    }
+}

@@ -176,6 +176,22 @@ TEST(bad_rows) {
     REFUSE(DP_ERROR_FORMAT, spec.format.exponent_bits = 9);
     REFUSE(DP_ERROR_FORMAT, spec.format.bias = 0);
     REFUSE(DP_ERROR_FORMAT, spec.format.code_max++);
+    /* 1 has the exponent field `bias`, which `exponent_bits` bits must hold. */
+    for (int e = 2; e <= 8; e++)
+        for (int bias = (1 << e) - 2; bias <= (1 << e) + 1; bias++) {
+            dp_spec spec = dp_spec_default();
+            spec.format = oracle_unorm(16);
+            spec.format.kind = DP_FORMAT_FLOAT;
+            spec.format.bits = e + 10;
+            spec.format.exponent_bits = e;
+            spec.format.mantissa_bits = 10;
+            spec.format.bias = bias;
+            spec.format.code_max = (uint32_t)bias << 10;
+            if (bias < 1 << e)
+                accept_spec(&spec, __LINE__);
+            else
+                refuse(&spec, DP_ERROR_FORMAT, __LINE__);
+        }
 }
 
 TEST(null_pointers) {

@@ -3,6 +3,8 @@
  * Every value that solve prints. The planes that it found are taken from its JSON and put to the test: there the
  * measure is what is printed beside them, they pass, and beyond them nothing does. Text and CSV say the same.
  */
+#include <ctype.h>
+
 #include <time.h>
 
 #include "camera/cost.h"
@@ -604,6 +606,26 @@ TEST(logarithm_answers) {
     assert_int_equal(p.status, 0);
     assert_true(strncmp(p.out, "unorm24 log, near 0.1, far 1000000 resolves 0.01 ", 47) == 0);
     printed_free(&p);
+}
+
+/* Why the guarantee is not in binary32, said of what it is: an error has cells, a mapping may have no pipeline. */
+TEST(why_another_model) {
+    static const char *const rows[][3] = {
+        {"--error 0.01 -m d3d", "model float has no cells, so no error", "does not cover this mapping"},
+        {"--separation 0.01 -m linear", "model float does not cover this mapping", "so no error"},
+        {"--separation 0.01 -m d3d", "float: guaranteed in binary32 arithmetic, ieee", "so no error"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        printed p = print_of("solve --for near -f 1000 --at 100 -F d24 %s", rows[i][0]);
+        char *flat = p.out;
+        for (const char *at = p.out; *at != '\0'; at++) /* on one line, with one blank between words */
+            if (!isspace((unsigned char)*at) || (flat > p.out && flat[-1] != ' '))
+                *flat++ = isspace((unsigned char)*at) ? ' ' : *at;
+        *flat = '\0';
+        if (strstr(p.out, rows[i][1]) == NULL || strstr(p.out, rows[i][2]) != NULL)
+            fail_msg("%s: %s", rows[i][0], p.out);
+        printed_free(&p);
+    }
 }
 
 /* What is wanted is told as it was typed, and what is reached in that unit: a twelfth of a metre is 0.0833 m. */

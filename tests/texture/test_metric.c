@@ -7,6 +7,7 @@
 #include <jansson.h>
 
 #include "support.h"
+#include "texture/units.h"
 #include "truth.h"
 
 typedef struct metric_kind {
@@ -662,4 +663,20 @@ TEST(holes_are_counted) {
 
 int main(void) {
     return run_listed(truth_folder, truth_folder_end);
+}
+
+/* The unit of cameras that see most of a picture is likely where at least half of it has depth, and not below. */
+TEST(units_of_sparse_depth) {
+    enum { SIDE = 40, ALL = SIDE * SIDE };
+    static uint16_t samples[ALL];
+    const image img = {.width = SIDE, .height = SIDE, .channels = 1, .type = IMAGE_U16, .data = samples};
+    for (int filled = ALL / 4; filled <= ALL; filled += ALL / 20) {
+        unit_reading all[UNITS_MAX];
+        bool tum = false;
+        for (int i = 0; i < ALL; i++) /* 1 to 4 m in the units of TUM, 20 to 78 m in those of KITTI */
+            samples[i] = i < filled ? (uint16_t)(5000 + i * 9) : 0;
+        for (size_t i = units_find(&img, all); i > 0; i--)
+            tum = tum || strcmp(all[i - 1].option, "--metric tum") == 0;
+        assert_int_equal(tum, 2 * filled >= ALL);
+    }
 }
