@@ -290,7 +290,7 @@ WEB_DRAW_O := $(call web_objects,$(filter-out %/fight.c %/mesh.c %/vertex_compar
 SAMPLES_O := $(foreach p,samples frames,$(B)/web/obj/tests/web/$p.o $(B)/obj/tests/web/$p.o)
 # Fast where numbers are made, small elsewhere.
 $(call web_objects,$(patsubst %,src/core/%.c,batch batch_baseline boundary depth elementary expansion pipeline separation \
-    separation_over windows) $(patsubst %,src/raster/%.c,clip draw mesa picture pixels raster snapped swiftshader)): WEB_OPTIMIZE := -O2
+    separation_over windows) $(patsubst %,src/raster/%.c,clip draw mesa picture pixels raster snapped swiftshader) src/texture/moved.c src/web/kinds.c): WEB_OPTIMIZE := -O2
 $(B)/web/obj/%.o: WEB_OPTIMIZE ?= -Oz
 $(B)/web/obj/%.o: %.c Makefile
 	@mkdir -p $(@D)

@@ -49,8 +49,10 @@ const moved_row *moved_get(size_t index) {
     return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;
 }
 
+/* Of whole numbers in up to two bytes, which all that is asked here are. */
 static uint32_t sample_at(const image *img, size_t i) {
-    return (uint32_t)image_sample(img, i);
+    const size_t at = i * img->channels;
+    return img->type == IMAGE_U16 ? ((const uint16_t *)img->data)[at] : ((const uint8_t *)img->data)[at];
 }
 
 static uint32_t apart(uint32_t a, uint32_t b) {
@@ -77,13 +79,30 @@ static int is_rotated(const uint32_t x[3], int bits) {
     return vote;
 }
 
-/* A sample and its neighbours in a row or a column. @return false at borders */
-static bool three_at(const image *img, size_t at, size_t step, uint32_t x[3]) {
-    const size_t count = (size_t)img->width * img->height, column = at % img->width;
-    if (at < step || at + step >= count || (step == 1 && (column == 0 || column == img->width - 1)))
+/* A sample and its neighbours, all of them in rows, then all in columns. */
+typedef struct three {
+    const image *img;
+    size_t at, column; /* of the first */
+    bool down;
+    uint32_t x[3];
+} three;
+
+static bool three_next(three *t) {
+    const size_t width = t->img->width, height = t->img->height;
+    if (!t->down && t->column + 2 >= width) {
+        t->at += width - t->column;
+        t->column = 0;
+    }
+    if (!t->down && (width < 3 || t->at >= width * height)) {
+        t->down = true;
+        t->at = 0;
+    }
+    if (t->down && t->at + 2 * width >= width * height)
         return false;
     for (size_t i = 0; i < 3; i++)
-        x[i] = sample_at(img, at + i * step - step);
+        t->x[i] = sample_at(t->img, t->at + (t->down ? i * width : i));
+    t->at++;
+    t->column++;
     return true;
 }
 
@@ -91,10 +110,8 @@ static bool three_at(const image *img, size_t at, size_t step, uint32_t x[3]) {
 static bool is_told(const image *img, int bits) {
     int32_t *votes = calloc(VALUES, sizeof *votes);
     long balance = 0;
-    uint32_t x[3];
-    for (size_t i = 0; i < 2 * (size_t)img->width * img->height && votes != NULL; i++)
-        if (three_at(img, i / 2, i % 2 == 0 ? 1 : img->width, x))
-            votes[x[1]] += is_rotated(x, bits);
+    for (three t = {.img = img}; votes != NULL && three_next(&t);)
+        votes[t.x[1]] += is_rotated(t.x, bits);
     for (size_t v = 0; v < VALUES && votes != NULL; v++)
         balance += votes[v] > 0 ? 1 : votes[v] < 0 ? -AGAINST : 0;
     free(votes);
@@ -105,10 +122,9 @@ static bool is_told(const image *img, int bits) {
 static bool is_wrapped(const image *img) {
     bool seen[BYTE + 1] = {false};
     size_t wraps = 0, bends = 0, values = 0;
-    uint32_t x[3];
-    for (size_t i = 0; i < 2 * (size_t)img->width * img->height; i++) {
-        if (!three_at(img, i / 2, i % 2 == 0 ? 1 : img->width, x) || x[0] == 0 || x[1] == 0 || x[2] == 0 ||
-            x[0] >= BYTE || x[1] >= BYTE || x[2] >= BYTE)
+    for (three t = {.img = img}; three_next(&t);) {
+        const uint32_t *const x = t.x;
+        if (x[0] == 0 || x[1] == 0 || x[2] == 0 || x[0] >= BYTE || x[1] >= BYTE || x[2] >= BYTE)
             continue;
         const uint32_t bend = apart(x[0] + x[2], 2 * x[1]);
         const bool wrap = apart(bend, BYTE + 1) <= BEND / 2;

@@ -4,19 +4,22 @@ const BYTES_MAX = 2 ** 28, PNG_HEAD = 33;
 
 // A PNG's head and its rows, which the browser inflates; kinds.c has the rest.
 async function inflated(bytes) {
-    const view = new DataView(bytes.buffer), parts = [];
+    const view = new DataView(bytes.buffer), { readable, writable } = new DecompressionStream("deflate");
+    const writer = writable.getWriter(), reader = readable.getReader(), all = [bytes.subarray(0, PNG_HEAD)];
+    const write = (done) => done.catch(() => {}); // the reader tells
     for (let at = 8, size; at + 8 <= bytes.length; at += 12 + size) {
         size = view.getUint32(at);
-        if (view.getUint32(at + 4) === 0x49444154) parts.push(bytes.subarray(at + 8, at + 8 + size)); // IDAT
+        if (view.getUint32(at + 4) === 0x49444154) write(writer.write(bytes.subarray(at + 8, at + 8 + size))); // IDAT
     }
-    const all = [bytes.subarray(0, PNG_HEAD)], reader = new Blob(parts).stream().pipeThrough(new DecompressionStream("deflate")).getReader();
-    for (let size = 0; ;) {
-        const { value, done } = await reader.read();
-        if (done) return new Uint8Array(await new Blob(all).arrayBuffer());
-        size += value.length;
+    write(writer.close());
+    let size = PNG_HEAD;
+    for (let next; !(next = await reader.read()).done; all.push(next.value)) {
+        size += next.value.length;
         if (size > BYTES_MAX) throw new Error(`has more than ${BYTES_MAX} bytes of pixels, which is as many as the page reads`);
-        all.push(value);
     }
+    const out = new Uint8Array(size);
+    for (const one of all.reverse()) out.set(one, (size -= one.length));
+    return out;
 }
 
 async function bytesOf(file) {

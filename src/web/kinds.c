@@ -17,8 +17,12 @@ static uint32_t number_at(const unsigned char *at) {
 static int guess(int filter, int left, int up, int corner) {
     const int a = up > corner ? up - corner : corner - up, b = left > corner ? left - corner : corner - left;
     const int both = left + up - 2 * corner, c = both < 0 ? -both : both;
-    const int nearest = a <= b && a <= c ? left : b <= c ? up : corner, by[] = {0, left, up, (left + up) / 2, nearest};
-    return by[filter];
+    return filter == 1        ? left
+           : filter == 2      ? up
+           : filter == 3      ? (left + up) / 2
+           : a <= b && a <= c ? left
+           : b <= c           ? up
+                              : corner;
 }
 
 static void unfilter(int filter, unsigned char *row, const unsigned char *above, size_t size, size_t step) {
