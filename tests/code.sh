@@ -395,4 +395,11 @@ formulas() {
 }
 check "the formula beside each constant gives it" empty formulas
 
+
+# The depth of infinity, 0 or 1, is in no domain; that of a finite far plane is.
+domain() { "$DEPTHPREC" code --language fpcore -f "$1" -m "$2" | grep -cF ":pre ($3 0 d 1)" | grep -qx 1; }
+for mapping in d3d reversed; do
+    check "FPCore's domain of $mapping, far 1000" domain 1000 $mapping '<='
+    check "FPCore's domain of $mapping, no far plane" domain inf $mapping '<'
+done
 finish

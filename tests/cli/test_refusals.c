@@ -32,6 +32,9 @@ static const struct {
 
 static const refusal refusals[] = {
     {"table --link=a#b", "link", 2},
+    {"code --language gappa -m d3d --depth-range 0.2:0.8", "language", 2},
+    {"code --language fpcore -m d3d --depth-range 0.2:0.8", "language", 2},
+    {"code encode --language fpcore -m d3d --depth-range 0.2:0.8", "language", 2},
     {"plot fight --link", "link", 2},
     {"table --at 0.01", "at", 2},
     {"table --at 2000", "at", 2},

@@ -4,6 +4,7 @@
  * models: the same pairs, their distances to 1e-12 of the model's extent, their areas to 1e-12 of its square.
  */
 #include "scene/find.h"
+#include "scene/overlap.h"
 #include "scene_made.h"
 #include "scene_truth.h"
 #include "support.h"
@@ -204,4 +205,38 @@ TEST(test_all_pairs) {
            (unsigned long long)seen.apart, (unsigned long long)seen.thin, (unsigned long long)seen.degenerate);
     assert_true(seen.plane > 3 * models && seen.pairs > seen.plane + models);
     assert_true(seen.touch > 3 * models && seen.apart > models && seen.degenerate > models);
+}
+
+/* The width of an overlap is its area over the longest of all lines between its corners, sides among them; corners and
+ * area are each other's. */
+TEST(widths_of_overlaps) {
+    tally t = {.name = "widths of overlaps"};
+    rng r = rng_make("widths of overlaps");
+    int of[OVERLAP_CORNERS + 1] = {0};
+    for (uint64_t n = test_cases(2000, 5000, 50000); n > 0; n--) {
+        double p[6][3];
+        const double *a[3], *b[3];
+        overlap o;
+        for (int i = 0; i < 6; i++) {
+            p[i][0] = rng_uniform(&r, -1, 1);
+            p[i][1] = rng_uniform(&r, -1, 1);
+            p[i][2] = i < 3 ? 0.0 : 0.01;
+            *(i < 3 ? &a[i] : &b[i - 3]) = p[i];
+        }
+        if (!overlap_find(a, b, 0.1, 0.01, &o) || !(o.area > 1e-6))
+            continue;
+        double longest = 0, area = 0;
+        for (int i = 0; i < o.corners; i++) {
+            const double *u = o.corner[i], *v = o.corner[(i + 1) % o.corners];
+            area += (u[0] * v[1] - u[1] * v[0]) / 2;
+            for (int j = 0; j < o.corners; j++)
+                longest = fmax(longest, hypot(o.corner[j][0] - u[0], o.corner[j][1] - u[1]));
+        }
+        of[o.corners]++;
+        TALLY(&t, fabs(fabs(area) - o.area) <= 1e-12, "%d corners: area %.17g, not %.17g", o.corners, o.area, area);
+        TALLY(&t, fabs(o.width - o.area / longest) <= 1e-12 * o.width, "%d corners: width %.17g, not %.17g", o.corners,
+              o.width, o.area / longest);
+    }
+    assert_true(of[3] > 20 && of[4] > 20 && of[5] > 20 && of[6] > 0);
+    tally_end(&t);
 }
