@@ -73,9 +73,21 @@ typedef struct reader {
     size_t count;
 } reader;
 
+static void skip_blanks(reader *r) {
+    while (*r->at == ' ')
+        r->at++;
+}
+
+static size_t letters(const char *at) {
+    size_t length = 0;
+    while (isalnum((unsigned char)at[length]) || at[length] == '_')
+        length++;
+    return length;
+}
+
 static bool took(reader *r, const char *word) {
-    r->at += strspn(r->at, " ");
-    const bool is = strncmp(r->at, word, strlen(word)) == 0;
+    skip_blanks(r);
+    const bool is = *r->at == *word && strncmp(r->at, word, strlen(word)) == 0;
     r->at += is ? strlen(word) : 0;
     return is;
 }
@@ -96,7 +108,8 @@ static number made(const reader *r, long double exact, double ulps, bool wide) {
 
 static number known(const reader *r, const char *name, size_t length) {
     for (size_t i = r->count; i-- > 0;)
-        if (strlen(r->known[i].name) == length && strncmp(r->known[i].name, name, length) == 0)
+        if (r->known[i].name[0] == *name && strlen(r->known[i].name) == length &&
+            strncmp(r->known[i].name, name, length) == 0)
             return r->known[i].is;
     fail_msg("'%.*s' is not known", (int)length, name);
     return plain(0, false);
@@ -206,7 +219,7 @@ static number fused(reader *r) {
 static number factor(reader *r) {
     number x;
     char name[16];
-    r->at += strspn(r->at, " ");
+    skip_blanks(r);
     if (magic(r, &x))
         return x;
     if (took(r, "np.float64(")) {
@@ -237,7 +250,7 @@ static number factor(reader *r) {
     }
     if (isdigit((unsigned char)*r->at))
         return literal(r);
-    const size_t length = strspn(r->at, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_");
+    const size_t length = letters(r->at);
     if (r->at[length] == '(') {
         function_name(r, name);
         return call(r, name);
@@ -286,17 +299,10 @@ static void learn(reader *r, const char *name, size_t length, number is) {
     r->known[r->count++].is = is;
 }
 
-static size_t letters(const char *at) {
-    size_t length = 0;
-    while (isalnum((unsigned char)at[length]) || at[length] == '_')
-        length++;
-    return length;
-}
-
 /* "float x, float y", "x: f32, y: f32", "x, y": behind the parenthesis. */
 static void learn_parameters(reader *r, const float *given) {
     for (const char *end = r->at; *end != ')'; r->at = end + (*end == ',')) {
-        r->at += strspn(r->at, " ");
+        skip_blanks(r);
         took(r, "float ");
         const size_t length = letters(r->at);
         learn(r, r->at, length, plain((double)flushed(r->v, *given++), false));
