@@ -239,18 +239,40 @@ static int check_map(const json_t *series, const dp_setup *like) {
     return seen;
 }
 
+/* A walk over NDC from -1 up: where it goes on, the code before, and how many there were. */
+typedef struct ndc_walk {
+    float ndc, before;
+    double count;
+} ndc_walk;
+
 /* The codes that a real format of so many bits of mantissa has from NDC up to `last`: from every binary32 NDC >= -1 up
- * to -1/4 one by one, and all of them above, where half of a step of NDC is no wider than one of the format. */
+ * to -1/4 one by one, and all of them above, where half of a step of NDC is no wider than one of the format. A walk
+ * that has been is kept at places APART, and the next one goes on from there. */
 static double codes_up_to(float last, int mantissa) {
-    double count = 0;
-    float before = -1;
-    for (float ndc = -1.0f; ndc <= fminf(last, -0.25f); ndc = nextafterf(ndc, 1.0f)) {
-        const float depth = 0.5f * ndc + 0.5f;
+    enum { APART = 4096, KEPT = (1 << 24) / APART + 1 };
+    static ndc_walk kept[KEPT];
+    static size_t kept_count;
+    static int kept_of;
+    if (kept_of != mantissa) {
+        kept[0] = (ndc_walk){-1, -1, 0};
+        kept_count = 1;
+        kept_of = mantissa;
+    }
+    size_t at = kept_count - 1;
+    while (at > 0 && kept[at].ndc > last)
+        at--;
+    ndc_walk walk = kept[at];
+    for (size_t i = 1; walk.ndc <= fminf(last, -0.25f); i++) {
+        const float depth = 0.5f * walk.ndc + 0.5f;
         const float step = ldexpf(1.0f, (depth > 0 ? ilogbf(depth) : -126) - mantissa);
         const float code = mantissa < 23 ? step * nearbyintf(depth / step) : depth;
-        count += code != before;
-        before = code;
+        walk.count += code != walk.before;
+        walk.before = code;
+        walk.ndc = nextafterf(walk.ndc, 1.0f);
+        if (i % APART == 0 && at + i / APART == kept_count && kept_count < KEPT)
+            kept[kept_count++] = walk;
     }
+    double count = walk.count;
     for (double to = 0.5 + 0.5 * (double)last, from = 0.375; from < to; from = from < 0.5 ? 0.5 : to) {
         const double end = from < 0.5 ? fmin(0.5, to) : to;
         count += (end - from) * ldexp(1.0, mantissa + (from < 0.5 ? 2 : 1));
