@@ -38,11 +38,14 @@ export function createGpuPanel({ $, aside, judged, pictured, setup, take, frame 
     }
 
     $("#measure").addEventListener("click", async () => {
-        for (const id of ["#copy-profile", "#use-gpu"]) $(id).hidden = true;
+        for (const id of ["#profile", "#use-gpu"]) $(id).hidden = true;
         $("#compared").textContent = "";
         if (!(await show("#measure", ["probe"], "#measured", "#unmeasured"))) return;
-        profile = (await ask(["probe", "--json"])).out;
-        $("#copy-profile").hidden = false;
+        const said = await ask(["probe", "--json"]);
+        $("#unmeasured").textContent = fault(said);
+        if (said.status !== 0) return;
+        profile = said.out;
+        $("#profile").hidden = false;
         compare(JSON.parse(profile));
     });
     $("#use-gpu").addEventListener("click", () => take(found));

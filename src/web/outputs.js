@@ -14,14 +14,14 @@ import {
 export const [DARK, NARROW] = ["prefers-color-scheme: dark", "max-width: 40rem"].map((what) => globalThis.matchMedia?.(`(${what})`));
 export const theme = () => (page.printing ? "print" : (document.documentElement.dataset.theme ?? (DARK.matches ? "dark" : "light")));
 
-function save(name, text, type) {
+export function save(name, text, type) {
     const anchor = make("a", { href: URL.createObjectURL(new Blob([text], { type })), download: name });
     anchor.click();
     setTimeout(() => URL.revokeObjectURL(anchor.href), 1000);
 }
 
 const RUN = { json: ["--json"], csv: ["--csv"] };
-const TYPE = { json: "application/json", csv: "text/csv", svg: "image/svg+xml", png: "image/png" };
+export const TYPE = { json: "application/json", csv: "text/csv", svg: "image/svg+xml", png: "image/png" };
 
 // The figure as the page shows it, two pixels for one of its own.
 async function png(one) {

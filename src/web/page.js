@@ -8,7 +8,7 @@ import { ask, buildSetup, explain, fill, names, OTHER_WAY, take } from "./form.j
 import { gpu } from "./gpu.js";
 import { createGpuPanel, profileText } from "./gpu_panel.js";
 import { createImagePanel } from "./image_panel.js";
-import { axesNow, crossTo, DARK, narrow, observeWidths } from "./outputs.js";
+import { axesNow, crossTo, DARK, narrow, observeWidths, save, TYPE } from "./outputs.js";
 import { createPicture } from "./picture.js";
 import { heard, later, onScreen, release, showKnown, showPicture, showRun, want } from "./schedule.js";
 import { unpack } from "./unpack.js";
@@ -59,6 +59,7 @@ function listen() {
         $(`#${name}-text`).addEventListener("input", ({ target }) => target.value.trim() && ask(name, target.value.replaceAll(" ", "")));
     }
     copies("#copy-profile", profileText);
+    $("#save-profile").addEventListener("click", () => save("depthprec-gpu.json", profileText(), TYPE.json));
     copies("#copy-commands", () => $("#link").textContent);
     for (const panel of $$("details[data-panel]"))
         panel.addEventListener("toggle", () => {

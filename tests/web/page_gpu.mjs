@@ -89,7 +89,9 @@ async function measure(page) {
     await page.locator("#measure").click();
     await page.locator("#copy-profile").waitFor({ timeout: 30000 });
     await page.locator("#copy-profile").click();
-    return page.evaluate(() => window.copied);
+    const [copied, file] = await Promise.all([page.evaluate(() => window.copied), page.waitForEvent("download"), page.locator("#save-profile").click()]);
+    demand(file.suggestedFilename() === "depthprec-gpu.json" && readFileSync(await file.path(), "utf8") === copied, "the file is not what is copied");
+    return copied;
 }
 
 // Clip z from -w to w is moved to [0, 1] after the division, or before it by a row with the remap.
