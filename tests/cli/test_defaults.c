@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Each default that help spells out: with it given, a command prints what it prints without. */
+#include <ctype.h>
+
 #include "cli/option/option.h"
 #include "printed.h"
 
@@ -363,6 +365,46 @@ TEST(test_spelled_out) {
         }
     assert_true(tried >= 60);
     try_all(&t);
+    tally_end(&t);
+}
+
+/* What the help of a command says, on one line. */
+static void help_of(const command_row *v, char *out, size_t size) {
+    printed p = print_of("help %s", v->name);
+    size_t used = 0;
+    for (const char *at = p.out; *at != '\0' && used + 1 < size; at++)
+        if (!isspace((unsigned char)*at))
+            out[used++] = *at;
+        else if (used > 0 && out[used - 1] != ' ')
+            out[used++] = ' ';
+    out[used] = '\0';
+    printed_free(&p);
+}
+
+/* Each default, in words or not, stands in the help of each command that takes the option. */
+TEST(test_told_in_help) {
+    tally t = {.name = "defaults in help"};
+    static char help[1 << 16];
+    const option_row *all[OPTIONS_MAX + 1];
+    const command_row *v;
+    options_all(all);
+    for (size_t i = 0; (v = command_get(i)) != NULL; i++) {
+        if (bit_of(v) == BIT(plot)) /* has the options of figures by figure */
+            continue;
+        help_of(v, help, sizeof help);
+        for (size_t o = 0; all[o] != NULL; o++) {
+            const option_taken use = use_of(v, all[o]);
+            const char *standard = NULL, *without = NULL;
+            char want[512];
+            if (use.row != NULL)
+                option_default(&use, &standard, &without);
+            if (standard == NULL && without == NULL)
+                continue;
+            snprintf(want, sizeof want, "default%s%s%s%s)", standard != NULL ? " " : "",
+                     standard != NULL ? standard : "", without != NULL ? ": " : "", without != NULL ? without : "");
+            TALLY(&t, strstr(help, want) != NULL, "%s --%s: '%s' is not in its help", v->name, all[o]->name, want);
+        }
+    }
     tally_end(&t);
 }
 
