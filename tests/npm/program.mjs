@@ -112,10 +112,11 @@ test("files are those of the fs that is given, and whole or not there", async ()
     native(["texture", "--synthetic", "plane", "--parameter", "tilt=60", "-F", "d16", "-o", "native.npy"]);
     assert.deepEqual(fs.readFileSync("made.npy"), fs.readFileSync("native.npy"));
     // A check that failed is an answer: it has its file. A refusal has none.
-    assert.throws(() => native(["check", "engine.need", "--json", "-o", "native.json"]), (error) => error.status === 1);
-    await run("check engine.need --json -o made.json", { fs });
+    fs.writeFileSync("failing.need", 'cameras = { a = { near = 0.1; far = 1000; format = "unorm16"; mapping = "d3d"; }; };\nrequirements = { b = { camera = "a"; range = [1.0, 500.0]; separation = 0.001; }; };\n');
+    assert.throws(() => native(["check", "failing.need", "--json", "-o", "native.json"]), (error) => error.status === 1);
+    await run("check failing.need --json -o made.json", { fs });
     assert.deepEqual(fs.readFileSync("made.json"), fs.readFileSync("native.json"));
-    await refuses(() => run("check engine.need --json -o none.json --csv", { fs }), /csv/);
+    await refuses(() => run("check failing.need --json -o none.json --csv", { fs }), /csv/);
     assert.ok(!fs.existsSync("none.json"));
     const words = "-n 0.1 -f 1000 -m d3d --json";
     const piped = await run(`texture - ${words}`, { input: fs.readFileSync("made.npy") });
