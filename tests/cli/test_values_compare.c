@@ -393,3 +393,13 @@ TEST(reversed_within_its_own_ndc) {
     reversing_of("gl,reversed", all);
     assert_string_equal(all, "");
 }
+
+/* Each format that no API has is named once, in the order of the table, the first three. */
+TEST(targets_named) {
+    check_says(0, "No API has fp16 as a depth buffer.", "table -F fp16,d24 -m d3d,reversed");
+    check_says(0, "No API has fp16 or unorm10 as a depth buffer.", "table -F unorm10,d24,fp16 -m d3d,reversed");
+    check_says(0, "No API has fp16, unorm10 or unorm9 as a depth buffer.", "table -F fp16,unorm10,unorm9,d24 -m d3d");
+    check_says(0, "No API has fp16, unorm10, unorm9 or others as a depth buffer.",
+               "table -F fp16,unorm10,unorm9,unorm8,unorm7,d24 -m d3d");
+    check_says(0, "!No API has", "table -F d16,d24,fp32 -m d3d");
+}

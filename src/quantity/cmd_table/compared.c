@@ -7,6 +7,7 @@
 
 #include "camera/cmd/depth24plus.h"
 #include "camera/cmd/slant.h"
+#include "cli/option/names.h"
 #include "core/append.h"
 #include "core/engine.h"
 #include "quantity/cmd_table/slices.h"
@@ -135,6 +136,23 @@ static void say_costs(page *p, const comparison *c) {
     }
 }
 
+/* Names the formats that no API has as depth buffers, the first few. */
+static void say_targets(page *p, const comparison *c) {
+    const char *words[NAMED + 2] = {NULL};
+    const name_list targets = {.words = words};
+    char text[NAMES_SIZE];
+    size_t count = 0;
+    for (size_t i = 0; i < c->each->all.count; i++) {
+        const char *name = c->rows[i].setup->spec.format.name;
+        if (c->rows[i].cost.buffer == 0 && !names_find(&targets, name, NULL, NULL) && count <= NAMED) {
+            words[count] = count < NAMED ? name : "others";
+            count++;
+        }
+    }
+    if (count > 0)
+        page_text(p, "No API has %s as a depth buffer.", names_join(&targets, ", ", " or ", text));
+}
+
 /* A guarantee may exceed the distance that is left up to far. */
 static void say_uncertain(page *p, const comparison *c) {
     char names[1024] = "";
@@ -168,11 +186,7 @@ void compared_say(page *p, void *item) {
         rg++;
     if (rg < c->each->all.count)
         page_text(p, RG_NOTE);
-    for (size_t i = 0; i < c->each->all.count; i++)
-        if (c->rows[i].cost.buffer == 0) {
-            page_text(p, "No API has %s as a depth buffer.", c->rows[i].setup->spec.format.name);
-            break;
-        }
+    say_targets(p, c);
     depth24plus_say(p, &c->o->camera);
     say_uncertain(p, c);
     page_text(p, "%s%s--full prints codes, errors, intervals, worst cases.",
