@@ -146,6 +146,51 @@ TEST(every_eye_depth_keeps_its_bound) {
     tally_end(&t);
 }
 
+/* ---- Up to which depth ------------------------------------------------------------------------------------------- */
+
+/* The depth that a comment names in "up to a depth of N"; NAN where it names none. */
+static double said_depth(const char *comment) {
+    static const char words[] = "up to a depth of ";
+    char flat[4096];
+    size_t used = 0;
+    for (; *comment != '\0' && used + 1 < sizeof flat; comment++) { /* without the breaks of its lines */
+        const bool blank = strchr(" \n/#", *comment) != NULL;
+        if (!blank || (used > 0 && flat[used - 1] != ' '))
+            flat[used++] = blank ? ' ' : *comment;
+    }
+    flat[used] = '\0';
+    const char *found = strstr(flat, words);
+    return found != NULL ? strtod(found + sizeof words - 1, NULL) : (double)NAN;
+}
+
+/*
+ * With an infinite far plane the bound holds where the window depth near/z is no number that is flushed, twice the
+ * least of the normal ones, or, where none is, the least of all; and z is no more than that from the largest. No depth
+ * is promised beyond that, and none of three digits short of it is left out.
+ */
+TEST(no_depth_is_said_that_is_flushed) {
+    rng r = rng_make("up to a depth");
+    tally t = {.name = "depths"};
+    for (uint64_t n = test_cases(20, 60, 3000); n > 0; n--)
+        for (size_t p = 0; p < PROMISES; p++)
+            for (size_t i = 0; i < *linearize_family.method_count; i++) {
+                const method_row *row = &linearize_family.methods[i];
+                const double znear = rng_log(&r, 1e-11, 1e11);
+                dp_setup s;
+                assert_int_equal(method_setup(&linearize_family, 1, znear, INFINITY, false, &s), DP_OK);
+                if (code_lacks(begin(p), row, &s) != NULL)
+                    continue;
+                code_function(&printed, begin(p), row, &s, false);
+                const double said = said_depth(text());
+                const long double least = promises[p].flushes ? 0x1p-125L : 0x1p-149L;
+                const long double most = fminl(s.spec.znear / least, promises[p].flushes ? 0x1p125L : 0x1p127L);
+                TALLY(&t, isnan(said) || (said <= most && said >= 0.99L * most), "%s in %s, near %.17g: %.17g, not %Lg",
+                      row->name, promises[p].name, znear, said, most);
+            }
+    assert_true(t.cases > 200);
+    tally_end(&t);
+}
+
 /* ---- Depth ranges ------------------------------------------------------------------------------------------------ */
 
 /* The eye depth of a window depth; the ends are those that binary32 has. */

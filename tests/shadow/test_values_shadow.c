@@ -621,3 +621,52 @@ TEST(why) {
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         check_says(0, rows[i][1], "shadow --light-box 40x40x%s -F d16 %s", i == 2 ? "1000" : "100", rows[i][0]);
 }
+
+/* Window depth of the sun's box, DEEP long, that a unit of an engine's bias is worth, by the engines' shaders. */
+enum { DEEP = 100 };
+static const struct {
+    const char *name;
+    double standard, worth;
+} biased[] = {{"three", 0, -1}, {"bevy", 0.02, 1.0 / DEEP}, {"babylon", 0.00005, 0.5}, {"godot", 0.1, 0.01 / DEEP}};
+enum { BIASED = sizeof biased / sizeof biased[0] };
+
+/* The numbers are those of the engine that is named first; every other one is told what does the same. */
+TEST(numbers_of_the_first_engine) {
+    rng r = rng_make("first engine");
+    tally t = {.name = "numbers"};
+    for (uint64_t n = test_cases(10, 24, 1000); n > 0; n--) {
+        size_t order[BIASED];
+        char names[96] = "", asked[48] = "";
+        for (size_t i = 0; i < BIASED; i++) { /* any order */
+            const size_t k = (size_t)rng_below(&r, i + 1);
+            order[i] = order[k];
+            order[k] = i;
+        }
+        const size_t count = 2 + (size_t)rng_below(&r, BIASED - 1), first = order[0];
+        for (size_t i = 0; i < count; i++)
+            snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", i > 0 ? "," : "",
+                     biased[order[i]].name);
+        const double drawn = rng_log(&r, 1e-5, 1e-2) / biased[first].worth;
+        const bool given_one = rng_below(&r, 4) != 0;
+        const double bias = given_one ? drawn : biased[first].standard;
+        if (given_one)
+            snprintf(asked, sizeof asked, "--bias=%.17g", bias);
+        json_t *root =
+            json_printed(0, "shadow --light-box 40x40x%d -F d24 --engine %s %s --normal-bias 0", DEEP, names, asked);
+        bool told[BIASED] = {false};
+        for (size_t i = 0; i < count; i++) {
+            const char *const name = text_at(root, "setups[0].engines[%zu].engine", i);
+            const double is = number_at(root, "setups[0].engines[%zu].bias", i);
+            size_t k = 0;
+            while (k < BIASED - 1 && strcmp(biased[k].name, name) != 0)
+                k++;
+            const double ought = bias * biased[first].worth / biased[k].worth;
+            TALLY(&t, i > 0 ? !told[k] : k == first, "%s, %s: %s is engine %zu", names, asked, name, i);
+            TALLY(&t, fabs(is - ought) <= 1e-9 * fabs(ought), "%s, %s: %s has %g, not %g", names, asked, name, is,
+                  ought);
+            told[k] = true;
+        }
+        json_decref(root);
+    }
+    tally_end(&t);
+}

@@ -251,6 +251,46 @@ TEST(places_by_the_focal_length) {
     }
 }
 
+/* Depths of disparities have no planes: these are taken where something is made or said of a pixel that has a use for
+ * them, and else refused by their name, whatever else is asked for. */
+TEST(planes_without_a_use) {
+    static const char *const planes[][3] = {{"--near", "0.25", "--near:"},
+                                            {"--far", "200", "--far:"},
+                                            {"--preset", "unity", "--preset:"},
+                                            {"--platform", "chrome-d3d", "--platform:"}};
+    static const struct {
+        const char *words[2], *file;
+        bool of_use;
+    } asked[] = {{{NULL}, "said.csv", false},
+                 {{"--histogram", "image.svg"}, NULL, false},
+                 {{"--json", "--full"}, "said.json", false},
+                 {{"--pixel", "1,1"}, "said.csv", true},
+                 {{"--product", "eye"}, "eye.npy", true}};
+    tally t = {.name = "planes"};
+    rng r = rng_make("planes without a use");
+    double z[PIXELS], samples[PIXELS];
+    picture(&r, &kinds[3], false, z, samples);
+    for (size_t i = 0; i < sizeof planes / sizeof planes[0]; i++)
+        for (size_t k = 0; k < sizeof asked / sizeof asked[0]; k++) {
+            command c = {.count = 0};
+            truth_add(&c, truth_path("in.npy"));
+            truth_add(&c, "--stereo");
+            truth_add(&c, kinds[3].words);
+            truth_add(&c, planes[i][0]);
+            truth_add(&c, planes[i][1]);
+            for (int w = 0; w < 2 && asked[k].words[w] != NULL; w++)
+                truth_add(&c, w == 1 && asked[k].file == NULL ? truth_path(asked[k].words[w]) : asked[k].words[w]);
+            if (asked[k].file != NULL) {
+                truth_add(&c, "-o");
+                truth_add(&c, truth_path(asked[k].file));
+            }
+            const int status = truth_run(c.arguments, c.count);
+            TALLY(&t, asked[k].of_use ? status == 0 : status == 2 && truth_said(planes[i][2]), "%s %s: %d",
+                  planes[i][0], asked[k].words[0] != NULL ? asked[k].words[0] : "alone", status);
+        }
+    tally_end(&t);
+}
+
 static json_t *run_json(const char *words) {
     char line[512];
     snprintf(line, sizeof line, "%s %s --json >%s 2>%s", getenv("DEPTHPREC"), words, truth_path("said.json"),
