@@ -142,7 +142,6 @@ dp_log_shader dp_log_shader_make(const dp_setup *setup, const dp_log2_row *log2)
         s.k_lo = s.k_hi = (double)(float)(ln2 / setup->kappa);
         s.by_exact = dp_granule((float)s.by) == s.by;
     }
-    s.below = larger(-log2_at(&s, s.from, n), 0.0);
     s.above = larger(log2_at(&s, s.from, f) - 1.0 / s.k_hi, 0.0);
     return s;
 }
@@ -180,8 +179,9 @@ static double distance(const dp_log_shader *s, double z, double growth) {
 }
 
 /*
- * The demand of any depth of a run and any behind it up to hi, as growth of the logarithm. Where one of the two may
- * leave [0, 1] it is clamped: then what the other is off by counts, and how far the logarithm itself goes beyond.
+ * The demand of any depth of a run and any behind it up to hi, as growth of the logarithm. Where the farther one may
+ * be clamped to 1, what the other is off by counts, and how far the logarithm itself goes beyond. The nearer one may be
+ * clamped to 0, which brings the two closer by no more than it is off by: no logarithm of a binary32 depth is below 0.
  */
 static double demand_of(const dp_log_shader *s, dp_span run, double hi, double extra, dp_log_demand *out) {
     const dp_log_steps a = dp_log_shader_steps(s, run);
@@ -195,8 +195,6 @@ static double demand_of(const dp_log_shader *s, dp_span run, double hi, double e
     double growth = (rest + ends[0] + ends[1]) / s->k_lo + off[0] + off[1];
     if (high >= 1.0)
         growth = larger(growth, s->above + off[0] + (rest + ends[0]) / s->k_lo);
-    if (low <= 0.0)
-        growth = larger(growth, s->below + off[1] + (rest + ends[1]) / s->k_lo);
     *out = (dp_log_demand){.argument = (a.argument + b.argument) * s->k_lo,
                            .log2 = (a.log2 + b.log2) * s->k_lo,
                            .ndc = a.ndc + b.ndc,
@@ -232,10 +230,9 @@ double dp_log_longest(const dp_log_shader *s, dp_span run, double extra, dp_log_
 double dp_log_shader_error(const dp_log_shader *s, dp_span span) {
     const dp_log_steps a = dp_log_shader_steps(s, span);
     const double off = a.argument + a.log2, ends = a.scale + a.ndc;
-    const double low = window_below(s, a.lo - off) - ends;
     const double high = (a.hi + off) * s->k_hi + ends;
     double growth = off + (ends + dp_stored_error(&s->pipeline, high)) / s->k_lo;
     growth += fabs(a.hi) * s->decoded; /* who decodes has a k of his own */
-    growth += larger(low <= 0.0 ? s->below : 0.0, high >= 1.0 ? s->above : 0.0);
+    growth += high >= 1.0 ? s->above : 0.0;
     return distance(s, span.hi, growth) + dp_half_ulp(span.hi); /* the depth enters as a binary32 number */
 }

@@ -25,10 +25,10 @@ typedef struct dp_log_shader {
     double k_lo, k_hi; /* window depth per unit of the logarithm: all surfaces share one k in between */
     double decoded;    /* by how much, relative, the k that decodes may differ from that */
     double zfar;
-    double below, above; /* how far the logarithm leaves that of [0, 1] inside the planes */
-    int by_exact;        /* C w is exact */
-    int vertex;          /* written by a vertex shader */
-    int run;             /* of cameras */
+    double above; /* how far the logarithm leaves that of [0, 1] at far */
+    int by_exact; /* C w is exact */
+    int vertex;   /* written by a vertex shader */
+    int run;      /* of cameras */
 } dp_log_shader;
 
 /* The shader of a set-up with a logarithmic curve. */
