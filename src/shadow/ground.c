@@ -57,7 +57,7 @@ static ground lamp_ground(const shadow_light *light, double z) {
     const double twice = light->world > 0.0 ? 2.0 : 1.0;
     ground g = {.size = t->width, .reach = t->pixels, .z = z, .pitch = 2.0 * h / t->width};
     const double off = 5.0 * eps * twice * (1.0 + h) / g.pitch;
-    const double second = 1.0 - 16.0 * eps * twice * vertex;  /* above 0.8 where the light has been checked */
+    const double second = 1.0 - 16.0 * eps * twice * vertex;  /* its cube is 1/2 or more in a light that was checked */
     g.depth = distance ? setup->kappa : z * z * setup->kappa; /* far - near; 1/near - 1/far */
     g.texel_x = g.texel_y = g.pitch * z;
     g.diagonal = root2 * g.pitch * z;

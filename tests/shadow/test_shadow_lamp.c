@@ -447,6 +447,39 @@ TEST(units) {
     tally_end(&t);
 }
 
+/*
+ * A light in a world: the places of the nearest vertices are up to sqrt(3) times the world from the origin, and so is
+ * the light itself. Roundings of both, 16 x 2^-24 of that distance each, may take off as much of the depth as leaves
+ * its cube half of what it is, and no more; beyond, however far, the light is refused for it, whatever else is wrong.
+ */
+TEST(refused_from_where_on) {
+    rng r = rng_make("refused from where on");
+    tally t = {.name = "worlds"};
+    int refused = 0, others = 0;
+    for (uint64_t n = test_cases(500, 5000, 100000); n > 0; n--) {
+        const double fov = rng_uniform(&r, 5.0, 160.0);
+        const double znear = rng_log(&r, 1e-3, 10.0);
+        const double zfar = znear * rng_log(&r, 2.0, 1e4);
+        const int size = 1 << (6 + rng_below(&r, 6));
+        shadow_light l = lamp_of(fov, znear, zfar, size, "unorm24", rng_below(&r, 4) == 0);
+        l.receiver_lo = znear * rng_log(&r, 1.0, zfar / znear);
+        l.receiver_lo = fmin(fmax(l.receiver_lo, znear), zfar);
+        l.triangles.depth = rng_log(&r, 1.0, 100.0);
+        const double nearest = fmax(l.receiver_lo / l.triangles.depth, znear);
+        const double most = (1.0 - 1.0 / cbrt(2.0)) * nearest / (2.0 * 16.0 * 0x1p-24 * sqrt(3.0));
+        const double widest = rng_below(&r, 2) == 0 ? 1.0 : 1e9;
+        const double by = rng_log(&r, 1e-9, widest);
+        l.world = rng_below(&r, 2) == 0 ? most * (1.0 + by) : most / (1.0 + by);
+        const shadow_status status = shadow_light_check(&l);
+        const bool is = l.world > most;
+        is ? refused++ : others++;
+        TALLY(&t, (status == SHADOW_POSITION) == is, "%g degrees, at %g, a world of %.17g, not above %.17g: status %d",
+              fov, nearest, l.world, most, (int)status);
+    }
+    assert_true(refused > 100 && others > 100);
+    tally_end(&t);
+}
+
 TEST(refused) {
     const shadow_light good = lamp_of(60.0, 0.1, 10.0, 512, "unorm16", false);
     shadow_light l = good;
