@@ -230,31 +230,54 @@ TEST(smooth_curves_take_few_evaluations) {
 }
 
 /* The guarantee of a column is certified, and no depth in it has a larger separation. */
+static void check_separations(tally *t, rng *r, const asked *a) {
+    chart *c = build(a, "interval");
+    const chart_panel *panel = &c->panels[0];
+    double lo, hi;
+    figure_range(&a->request, &lo, &hi);
+    for (int k = 0; k < COLUMNS; k++) {
+        const double from = refine_edge(CHART_LOG, lo, hi, k, COLUMNS);
+        const double to = refine_edge(CHART_LOG, lo, hi, k + 1, COLUMNS), z = rng_uniform(r, from, to);
+        const chart_series *shown = &panel->series[1];
+        const double drawn = line_at(&panel->x, &panel->y, shown, sqrt(from) * sqrt(to));
+        const double end = shown->certain_to < to ? shown->certain_to : to;
+        dp_separation_worst w = {.bound = (double)NAN};
+        if (!(from > end))
+            assert_int_equal(dp_separation_over(&a->setup, from, end, 0, &w), DP_OK);
+        const double off = pixels_off(&panel->y, drawn, w.bound);
+        TALLY(t, off <= 0.5 + 1e-6, "%s, column %d: %g px off", label(a), k, off);
+        const double above = chart_axis_share(&panel->y, dp_separation(&a->setup, z)) - drawn;
+        TALLY(t, z > end || !(above * ROWS > 0.5 + 1e-6), "%s at %a: %g px above", label(a), z, above * ROWS);
+    }
+    chart_free(c);
+}
+
 TEST(separations_are_drawn_to_half_a_pixel) {
     rng r = rng_make("separations");
     tally t = {.name = "separations"};
     for (uint64_t n = test_cases(20, 100, 2000); n > 0; n--) {
         asked a;
         random_request(&r, &a, DP_MODEL_FLOAT);
-        chart *c = build(&a, "interval");
-        const chart_panel *panel = &c->panels[0];
-        double lo, hi;
-        figure_range(&a.request, &lo, &hi);
-        for (int k = 0; k < COLUMNS; k++) {
-            const double from = refine_edge(CHART_LOG, lo, hi, k, COLUMNS);
-            const double to = refine_edge(CHART_LOG, lo, hi, k + 1, COLUMNS), z = rng_uniform(&r, from, to);
-            const chart_series *shown = &panel->series[1];
-            const double drawn = line_at(&panel->x, &panel->y, shown, sqrt(from) * sqrt(to));
-            const double end = shown->certain_to < to ? shown->certain_to : to;
-            dp_separation_worst w = {.bound = (double)NAN};
-            if (!(from > end))
-                assert_int_equal(dp_separation_over(&a.setup, from, end, 0, &w), DP_OK);
-            const double off = pixels_off(&panel->y, drawn, w.bound);
-            TALLY(&t, off <= 0.5 + 1e-6, "%s, column %d: %g px off", label(&a), k, off);
-            const double above = chart_axis_share(&panel->y, dp_separation(&a.setup, z)) - drawn;
-            TALLY(&t, z > end || !(above * ROWS > 0.5 + 1e-6), "%s at %a: %g px above", label(&a), z, above * ROWS);
-        }
-        chart_free(c);
+        check_separations(&t, &r, &a);
+    }
+    tally_end(&t);
+}
+
+/* With near at +1 of [-1, 1] it steps where the eye depth has a power of two. */
+TEST(separations_of_signed_reversed_cameras) {
+    rng r = rng_make("signed reversed separations");
+    tally t = {.name = "signed, reversed"};
+    for (uint64_t n = test_cases(40, 80, 1000); n > 0; n--) {
+        asked a;
+        random_request(&r, &a, DP_MODEL_FLOAT);
+        dp_spec spec = dp_spec_default();
+        spec.format = a.setup.spec.format;
+        spec.mapping = DP_MAPPING_GL_REVERSED;
+        spec.model = DP_MODEL_FLOAT;
+        spec.znear = rng_log(&r, 0.05, 2.0);
+        spec.zfar = INFINITY;
+        assert_int_equal(dp_setup_init(&a.setup, &spec), DP_OK);
+        check_separations(&t, &r, &a);
     }
     tally_end(&t);
 }
