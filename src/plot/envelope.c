@@ -47,24 +47,20 @@ void envelope_slice(const dp_setup *setup, double from, double to, quantity_kind
                            .flicker = {flicker_of(setup, &worst, to - from)}};
 }
 
-/* The guarantee of binary32 arithmetic is a whole number of binary32 steps of z, now one more, now one less. */
-static double flicker_of_separation(const dp_setup *setup, double z, double separation) {
+/* The guarantee of binary32 arithmetic is a whole number of binary32 steps of z, now one more, now one less. Within a
+ * separation it goes up and down by what it gains over some: where a column is no wider, the worst in it depends on
+ * where the column lies. */
+static double flicker_of_separation(const dp_setup *setup, double z, double width, double separation) {
     const double steps = setup->spec.model == DP_MODEL_EXACT ? 0 : 2;
-    return isinf(separation) ? 0 : steps * ldexp(1.0, ilogb(z) - 23) / separation;
-}
-
-/* Within a separation it goes up and down by what it gains over one, as the width of a cell does: where a column is no
- * wider, the worst in it depends on where the column lies. */
-static double step_of_separation(double z, double separation) {
-    return z <= 0 || isinf(separation) ? 0 : 2 * separation / z;
+    const double rounded = steps * ldexp(1.0, ilogb(z) - 23) / separation;
+    const bool within = width > 0 && 2 * separation > width;
+    return isinf(separation) ? 0 : within ? fmax(rounded, 2 * separation / z) : rounded;
 }
 
 void envelope_separation(const void *setup, double from, double to, refine_sample *out) {
     const double bound = quantity_bound(QUANTITY_SEPARATION, setup, from, to);
     const double size = from > 0 ? from : fmax(-from, to);
-    *out = (refine_sample){.y = {bound},
-                           .step = {step_of_separation(from, bound)},
-                           .flicker = {flicker_of_separation(setup, size, bound)}};
+    *out = (refine_sample){.y = {bound}, .flicker = {flicker_of_separation(setup, size, to - from, bound)}};
 }
 
 /* ---- Knots ------------------------------------------------------------------------------------------------------- */

@@ -282,6 +282,25 @@ TEST(separations_of_signed_reversed_cameras) {
     tally_end(&t);
 }
 
+/* Far behind near a separation is wider than a column. */
+TEST(separations_wider_than_columns) {
+    rng r = rng_make("wide separations");
+    tally t = {.name = "wide"};
+    for (uint64_t n = test_cases(40, 80, 1000); n > 0; n--) {
+        asked a;
+        random_request(&r, &a, DP_MODEL_FLOAT);
+        dp_spec spec = dp_spec_default();
+        spec.format = a.setup.spec.format;
+        spec.mapping = rng_below(&r, 2) ? DP_MAPPING_GL : DP_MAPPING_D3D;
+        spec.model = DP_MODEL_FLOAT;
+        spec.znear = rng_log(&r, 0.001, 10.0);
+        spec.zfar = spec.znear * rng_log(&r, 5e5, 8e6);
+        assert_int_equal(dp_setup_init(&a.setup, &spec), DP_OK);
+        check_separations(&t, &r, &a);
+    }
+    tally_end(&t);
+}
+
 /* ---- Refinement itself, on curves that are known ---- */
 
 typedef struct known_curve {
