@@ -37,21 +37,52 @@ typedef struct extent {
     bool widened;    /* and whether all are widened bytes */
 } extent;
 
+static void words_of(const dp_image *image, size_t first, size_t count, uint32_t *words) {
+    const size_t stride = image->stride, from = first * stride;
+    const uint8_t *const bytes = image->data;
+    const uint16_t *const shorts = image->data;
+    const uint32_t *const longs = image->data;
+    for (size_t i = 0; i < count; i++)
+        words[i] = image->type == DP_IMAGE_U8    ? bytes[from + i * stride]
+                   : image->type == DP_IMAGE_U16 ? shorts[from + i * stride]
+                                                 : longs[from + i * stride];
+}
+
+/* Whole numbers, many at a time. */
+static void widen_words(extent *e, const uint32_t *words, size_t count, uint32_t first) {
+    uint32_t least = UINT32_MAX, greatest = 0, differ = 0, other = 0, outside = 0;
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t bits = words[i];
+        least = bits < least ? bits : least;
+        greatest = bits > greatest ? bits : greatest;
+        outside += bits > 1;
+        differ |= bits ^ first;
+        other |= bits ^ WIDENED * (bits & 0xFF);
+    }
+    e->least = least < e->least ? least : e->least;
+    e->greatest = greatest > e->greatest ? greatest : e->greatest;
+    e->outside += outside;
+    e->differ |= differ;
+    e->widened = e->widened && other == 0;
+}
+
 static extent extent_of(const dp_image *image, size_t count) {
+    enum { WORDS = 512 };
+    uint32_t words[WORDS];
     const bool integers = image->type < DP_IMAGE_F16;
     extent e = {.least = (double)INFINITY, .greatest = -(double)INFINITY, .widened = true};
-    uint32_t first = 0;
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < count && !integers; i++) {
         const double x = dp_image_number(image, i);
-        if (!integers && !isfinite(x))
+        if (!isfinite(x))
             continue;
         e.least = x < e.least ? x : e.least;
         e.greatest = x > e.greatest ? x : e.greatest;
         e.outside += x < 0 || x > 1;
-        const uint32_t bits = integers ? (uint32_t)x : 0;
-        first = i == 0 ? bits : first;
-        e.differ |= bits ^ first;
-        e.widened = e.widened && bits == WIDENED * (bits & 0xFF);
+    }
+    for (size_t i = 0; i < count && integers; i += WORDS) {
+        const size_t some = count - i < WORDS ? count - i : WORDS;
+        words_of(image, i, some, words);
+        widen_words(&e, words, some, (uint32_t)dp_image_number(image, 0));
     }
     return e;
 }
