@@ -52,7 +52,7 @@ DP_INLINE double half_ulp(double x) {
 
 /* Whether two numbers have one sign. */
 DP_INLINE choice are_alike(double a, double b) {
-    return ~(uint64_t)((int64_t)(dp_bits64(a) ^ dp_bits64(b)) >> 63);
+    return ((dp_bits64(a) ^ dp_bits64(b)) >> 63) - 1;
 }
 
 /* 1/x of a power of two, whose product with a number is the quotient. */
