@@ -26,6 +26,7 @@ static const aim aims[AIM_COUNT] = {
     [AIM_CODE] = {"array", "<=", 0.26, "ns"},
     [AIM_EYE] = {"array", "<=", 1.5, "L"},
     [AIM_WIDTH] = {"array", "<=", 0.42, "ns"},
+    [AIM_SEPARATIONS] = {"separations", ">=", 4, "times one by one"},
     [AIM_PLACES] = {"places", "<=", 1.2, "plain copies to 3 planes"},
     [AIM_NORMALS] = {"normals", "<=", 2, "L"},
     [AIM_PLACES_HALF] = {"places", "<=", 1.5, "times the row in binary32"},

@@ -21,6 +21,7 @@ typedef enum aim_id {
     AIM_CODE,
     AIM_EYE,
     AIM_WIDTH,
+    AIM_SEPARATIONS,
     AIM_PLACES,
     AIM_NORMALS,
     AIM_PLACES_HALF,

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * The array kernels, as ratios within one run: a loop that moves the same bytes, the task in plain C at -O2, and each
- * path take turns on the same arrays in the second cache; the least counts.
+ * path take turns on the same arrays in the second cache; the least counts. Separations are measured together and one
+ * by one.
  */
 #include <math.h>
 #include <stdio.h>
@@ -9,6 +10,7 @@
 #include <string.h>
 
 #include "aims.h"
+#include "core/guarantee.h"
 #include "depthprec/depthprec.h"
 #include "timing.h"
 
@@ -190,10 +192,50 @@ static void measure(const row *r) {
     printf("\n");
 }
 
+/* The guarantee at many depths together and one by one, prepared once for both; their bits are the same. */
+static void measure_separations(const char *format, dp_mapping mapping) {
+    enum { DEPTHS = 4096 };
+    static double z[DEPTHS], alone[DEPTHS], many[DEPTHS];
+    timing taken[2] = {{.count = 0}};
+    dp_format formats[2];
+    dp_spec spec = dp_spec_default();
+    dp_setup camera;
+    char what[64];
+    dp_format_parse(format, formats);
+    spec.format = formats[0];
+    spec.mapping = mapping;
+    spec.model = DP_MODEL_FLOAT;
+    if (dp_setup_init(&camera, &spec) != DP_OK)
+        exit(2);
+    const dp_guarantee guarantee = dp_guarantee_make(&camera);
+    for (int i = 0; i < DEPTHS; i++)
+        z[i] = 0.1 * pow(10000.0, (i + 0.5) / DEPTHS);
+    for (int run = -1; run < RUNS; run++)
+        for (int which = 0; which < 2; which++) {
+            const double start = timing_now();
+            for (int i = 0; i < DEPTHS && which == 0; i++)
+                alone[i] = dp_guarantee_at(&guarantee, z[i]);
+            if (which == 1)
+                dp_guarantee_many(&guarantee, z, many, DEPTHS);
+            if (run >= 0)
+                timing_add(&taken[which], (timing_now() - start) * 1e9 / DEPTHS);
+        }
+    if (memcmp(alone, many, sizeof alone) != 0)
+        exit(2);
+    snprintf(what, sizeof what, "%s %s", format, dp_mapping_get(mapping)->name);
+    printf("%-31s %8.1f x%.2f %8.1f x%.2f", what, timing_least(&taken[0]), timing_spread(&taken[0]),
+           timing_least(&taken[1]), timing_spread(&taken[1]));
+    aim_judge(AIM_SEPARATIONS, what, timing_least(&taken[0]) / timing_least(&taken[1]));
+    printf("\n");
+}
+
 int main(void) {
     printf("%-31s %8s %8s %8s %8s %8s %7s   %s\n", "arrays, ns per element", "L", "plain C", "baseline", "avx2",
            "avx512", "best/L", "aim");
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         measure(&rows[i]);
+    printf("\n%-31s %8s %5s %8s %5s   aim\n", "separations, ns per element", "alone", "", "many", "");
+    measure_separations("unorm24", DP_MAPPING_D3D);
+    measure_separations("fp32", DP_MAPPING_REVERSED);
     return 0;
 }

@@ -32,7 +32,7 @@ double dp_guarantee_at(const dp_guarantee *g, double z);
 /* At least what the lattice alone needs: no arithmetic before it makes two surfaces easier to tell apart. */
 double dp_with_lattice(const dp_setup *setup, double z, double needs);
 
-/* dp_guarantee_at() of many depths, to the bit; of most cameras some 8 times as fast with AVX-512. */
+/* dp_guarantee_at() of many depths, to the bit; of most cameras several times as fast (`make bench`: separations). */
 void dp_guarantee_many(const dp_guarantee *g, const double *z, double *separation, size_t count);
 
 /*

@@ -352,7 +352,7 @@ CLONES static void finish(const same *of, const block *restrict b, double *restr
     }
 }
 
-/* What stands for the choices of a format. */
+/* The numbers that stand for the choices of a format. */
 static void set_format(same *c, const dp_setup *s) {
     const dp_format *f = &s->spec.format;
     c->levels = (double)f->code_max;

@@ -31,7 +31,7 @@ DP_INLINE double choose(choice c, double a, double b) {
     return dp_float64((dp_bits64(a) & c) | (dp_bits64(b) & ~c));
 }
 
-/* What it is where that holds, else 0. */
+/* The number where the condition holds, else 0. */
 DP_INLINE double where(choice c, double a) {
     return dp_float64(dp_bits64(a) & c);
 }

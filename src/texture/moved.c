@@ -49,7 +49,7 @@ const moved_row *moved_get(size_t index) {
     return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;
 }
 
-/* Of whole numbers in up to two bytes, which all that is asked here are. */
+/* Samples are whole numbers of one or two bytes: moved_find() looks at no others. */
 static uint32_t sample_at(const image *img, size_t i) {
     const size_t at = i * img->channels;
     return img->type == IMAGE_U16 ? ((const uint16_t *)img->data)[at] : ((const uint8_t *)img->data)[at];

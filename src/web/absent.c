@@ -44,7 +44,7 @@ static int absent(const asked_line *line) {
     return usage_error("%s is not in the page: the program has it", line->command->name);
 }
 
-/* What nobody asks of it. */
+/* The page asks for none of these. */
 #define STUB(type, name, parameters, value)                                                                            \
     type name parameters {                                                                                             \
         return value;                                                                                                  \
@@ -190,7 +190,7 @@ STUB(int, methods_single, (const judge_request *o, methods_asked *asked), absent
 STUB(const char *, methods_machine, (char *out, size_t size), out)
 STUB(double, truth_width, (const dp_setup *setup, uint32_t code, bool *cut), 0.0)
 
-/* What world and its figure compute with; the bounds are there. */
+/* Steps of worlds, which `world` and its figure compute with; their bounds are there. */
 #define ABSENT_STEPS(name)                                                                                             \
     void arithmetic_##name(const world_scheme *s, const world_camera *camera, const world_place *place, float out[3]) {}
 ABSENT_STEPS(camera_double)

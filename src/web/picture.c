@@ -345,7 +345,7 @@ static bool print_other(const dp_spec *asked, bool reversed, bool as_float) {
     return true;
 }
 
-/* What lies in front moved nearer by the gap, as the command bias says it. */
+/* A bias that moves the surfaces in front nearer by the gap, as the command bias says it. */
 static void print_bias(void) {
     dp_spec spec = picture.asked.spec;
     dp_setup setup;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What probe found, in words and as the JSON that is a profile: see profile.h. */
+/* The findings of probe, in words and as the JSON that is a profile: see profile.h. */
 #include "probe/cmd_probe/report.h"
 
 #include <math.h>

@@ -140,7 +140,7 @@ void scene_junit(const scene *s, output *out);
 /** Writes the file of --emit-need. @return EXIT_FINE, or EXIT_IO after one line */
 int scene_need(scene *s);
 
-/** What text says before the findings that data have, and of them; the item is the scene. */
+/** Text says these before the findings that data have, and then of them; the item is the scene. */
 void scene_say_head(page *p, void *of);
 void scene_say_notes(page *p, void *of);
 
