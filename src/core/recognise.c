@@ -32,7 +32,7 @@ typedef struct finding {
 /* The extent of the finite samples. */
 typedef struct extent {
     double least, greatest;
-    size_t outside;  /* of [0, 1] */
+    size_t outside;  /* numbers: how many, of [0, 1] */
     uint32_t differ; /* integers: which bits differ between any two, */
     bool widened;    /* and whether all are widened bytes */
 } extent;
@@ -50,18 +50,16 @@ static void words_of(const dp_image *image, size_t first, size_t count, uint32_t
 
 /* Whole numbers, many at a time. */
 static void widen_words(extent *e, const uint32_t *words, size_t count, uint32_t first) {
-    uint32_t least = UINT32_MAX, greatest = 0, differ = 0, other = 0, outside = 0;
+    uint32_t least = UINT32_MAX, greatest = 0, differ = 0, other = 0;
     for (size_t i = 0; i < count; i++) {
         const uint32_t bits = words[i];
         least = bits < least ? bits : least;
         greatest = bits > greatest ? bits : greatest;
-        outside += bits > 1;
         differ |= bits ^ first;
         other |= bits ^ WIDENED * (bits & 0xFF);
     }
     e->least = least < e->least ? least : e->least;
     e->greatest = greatest > e->greatest ? greatest : e->greatest;
-    e->outside += outside;
     e->differ |= differ;
     e->widened = e->widened && other == 0;
 }

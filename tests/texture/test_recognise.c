@@ -579,6 +579,36 @@ TEST(each_type_and_stride) {
     free(data);
 }
 
+/* One sample that is less, greater, or no byte twice, decides wherever in an image it lies. */
+TEST(one_sample_decides) {
+    enum { MANY = 1300 };
+    static uint32_t longs[MANY];
+    static uint16_t shorts[MANY];
+    static uint8_t bytes[MANY];
+    void *const data[] = {bytes, shorts, longs};
+    rng r = rng_make("one sample");
+    for (uint64_t n = test_cases(200, 1000, 20000); n > 0; n--) {
+        const int type = (int)rng_below(&r, 3);
+        const dp_image img = {data[type], (dp_image_type)type, MANY, 1, 1};
+        const size_t least = rng_below(&r, MANY), greatest = rng_below(&r, MANY), odd = rng_below(&r, MANY);
+        const bool has_odd = rng_below(&r, 2) == 0 && odd != least && odd != greatest && type == DP_IMAGE_U16;
+        if (least == greatest)
+            continue;
+        for (size_t i = 0; i < MANY; i++) {
+            const uint32_t byte = i == least ? 11 : i == greatest ? 240 : 99;
+            bytes[i] = (uint8_t)byte;
+            shorts[i] = (uint16_t)(byte * 0x101 + (has_odd && i == odd ? 1 : 0));
+            longs[i] = byte;
+        }
+        const uint32_t scale = type == DP_IMAGE_U16 ? 0x101 : 1;
+        dp_recognised found;
+        assert_int_equal(dp_recognise(&img, NULL, slots, &found), DP_OK);
+        assert_true(found.least == 11 * scale && found.greatest == 240 * scale);
+        if (type == DP_IMAGE_U16)
+            assert_int_equal(found.reason == DP_REASON_WIDENED, !has_odd);
+    }
+}
+
 TEST(no_samples) {
     for (int type = 0; type < DP_IMAGE_TYPE_COUNT; type++)
         for (size_t width = 0; width < 2; width++) {
