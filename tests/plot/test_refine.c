@@ -263,22 +263,26 @@ TEST(separations_are_drawn_to_half_a_pixel) {
     tally_end(&t);
 }
 
+/* Checks a random request, with this camera in place of its own. */
+static void check_camera(tally *t, rng *r, dp_mapping mapping, double znear, double zfar) {
+    asked a;
+    random_request(r, &a, DP_MODEL_FLOAT);
+    dp_spec spec = dp_spec_default();
+    spec.format = a.setup.spec.format;
+    spec.mapping = mapping;
+    spec.model = DP_MODEL_FLOAT;
+    spec.znear = znear;
+    spec.zfar = zfar;
+    assert_int_equal(dp_setup_init(&a.setup, &spec), DP_OK);
+    check_separations(t, r, &a);
+}
+
 /* With near at +1 of [-1, 1] it steps where the eye depth has a power of two. */
 TEST(separations_of_signed_reversed_cameras) {
     rng r = rng_make("signed reversed separations");
     tally t = {.name = "signed, reversed"};
-    for (uint64_t n = test_cases(40, 80, 1000); n > 0; n--) {
-        asked a;
-        random_request(&r, &a, DP_MODEL_FLOAT);
-        dp_spec spec = dp_spec_default();
-        spec.format = a.setup.spec.format;
-        spec.mapping = DP_MAPPING_GL_REVERSED;
-        spec.model = DP_MODEL_FLOAT;
-        spec.znear = rng_log(&r, 0.05, 2.0);
-        spec.zfar = INFINITY;
-        assert_int_equal(dp_setup_init(&a.setup, &spec), DP_OK);
-        check_separations(&t, &r, &a);
-    }
+    for (uint64_t n = test_cases(40, 80, 1000); n > 0; n--)
+        check_camera(&t, &r, DP_MAPPING_GL_REVERSED, rng_log(&r, 0.05, 2.0), INFINITY);
     tally_end(&t);
 }
 
@@ -287,16 +291,9 @@ TEST(separations_wider_than_columns) {
     rng r = rng_make("wide separations");
     tally t = {.name = "wide"};
     for (uint64_t n = test_cases(40, 80, 1000); n > 0; n--) {
-        asked a;
-        random_request(&r, &a, DP_MODEL_FLOAT);
-        dp_spec spec = dp_spec_default();
-        spec.format = a.setup.spec.format;
-        spec.mapping = rng_below(&r, 2) ? DP_MAPPING_GL : DP_MAPPING_D3D;
-        spec.model = DP_MODEL_FLOAT;
-        spec.znear = rng_log(&r, 0.001, 10.0);
-        spec.zfar = spec.znear * rng_log(&r, 5e5, 8e6);
-        assert_int_equal(dp_setup_init(&a.setup, &spec), DP_OK);
-        check_separations(&t, &r, &a);
+        const dp_mapping mapping = rng_below(&r, 2) ? DP_MAPPING_GL : DP_MAPPING_D3D;
+        const double znear = rng_log(&r, 0.001, 10.0), share = rng_log(&r, 5e5, 8e6);
+        check_camera(&t, &r, mapping, znear, znear * share);
     }
     tally_end(&t);
 }
