@@ -13,6 +13,7 @@
 #include "core/elementary.h"
 #include "draw/pixels.h"
 #include "system/dynload.h"
+#include "system/pages.h"
 
 /* Points per px in a PDF: CSS has 96 px to the inch, PDF 72 points. */
 #define POINTS_PER_PX 0.75
@@ -139,6 +140,8 @@ canvas *canvas_new(canvas_format format, int width, int height, const notes *wor
         pdf_metadata(c->surface, words);
     } else {
         c->surface = call.cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
+        pages_large(call.cairo_image_surface_get_data(c->surface),
+                    (size_t)call.cairo_image_surface_get_stride(c->surface) * (size_t)height);
     }
     c->cr = call.cairo_create(c->surface);
     if (format == CANVAS_PDF)

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core/elementary.h"
+#include "system/pages.h"
 
 /* A chain of blocks: the link, then the caller's bytes. */
 typedef union block {
@@ -50,6 +51,7 @@ void *chart_memory(chart *c, size_t count, size_t size) {
         chart_fail(c);
         return NULL;
     }
+    pages_large(b, sizeof *b + count * size);
     b->next = w->memory;
     w->memory = b;
     return b + 1;

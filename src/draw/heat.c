@@ -8,6 +8,7 @@
 #include "core/elementary.h"
 #include "draw/area.h"
 #include "draw/ticks.h"
+#include "system/pages.h"
 
 enum { BAR_STEPS = 256 };
 
@@ -110,6 +111,7 @@ static bool draw_pixels(const pencil *p, canvas_rect f, const chart *c, const ch
     if (m->columns * m->rows < FEW)
         return draw_fields(p, f, c, panel);
     uint32_t *pixels = calloc((size_t)columns * (size_t)rows, sizeof *pixels);
+    pages_large(pixels, (size_t)columns * (size_t)rows * sizeof *pixels);
     bool good = pixels != NULL;
 #pragma omp parallel reduction(&& : good)
     {

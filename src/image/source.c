@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "image/kind.h"
+#include "system/pages.h"
 
 static const struct {
     const char *name;
@@ -101,6 +102,7 @@ bool source_grow(image_source *source, image *out, size_t *have, size_t need) {
     void *grown = realloc(out->data, size);
     if (grown == NULL)
         return source_fail(source, "out of memory: %u x %u pixels need %zu bytes", out->width, out->height, all);
+    pages_large(grown, size);
     out->data = grown;
     *have = size;
     return true;
