@@ -188,7 +188,7 @@ static void measure(const row *r) {
     const double best = ns[2 + dp_path_best()];
     printf(" %7.2f", best / ns[0]);
     if (r->aim != AIM_COUNT)
-        aim_judge(r->aim, r->what, r->aim == AIM_CODE || r->aim == AIM_WIDTH ? best : best / ns[0]);
+        aim_judge(r->aim, r->what, best / ns[0]);
     printf("\n");
 }
 
