@@ -204,6 +204,40 @@ static int quotient_reversed(dp_batch *b) {
     return b->setup.reversed && quotient_unorm(b);
 }
 
+/*
+ * d = s - p/z (or p/z - s) for f >= 2 n. In units of u^2 = 2^-48 of the larger term, what is left of s and p is off by
+ * 1 each, the quotient's remainder by 2, its sum by 3, its product with 1/z by 3, and the sums of what is below d, at
+ * most 5 u, by 2, 5 and 5: 22, and the error that is reckoned with is 32. Subnormal numbers are off by 2^-150 each.
+ */
+static int binary32(dp_batch *b) {
+    const dp_spec *spec = &b->setup.spec;
+    dp_batch_numbers *k = &dp_batch_write(b)->numbers;
+    const double n = spec->znear, f = spec->zfar;
+    if (!dp_format_is_ieee(&spec->format, 23, 127) || spec->rounding == DP_ROUND_ZERO || !(f >= 2.0 * n))
+        return 0;
+    const double far_scale = isinf(f) ? 1.0 : f / (f - n), p = n * far_scale;
+    const double s = !b->setup.reversed ? far_scale : isinf(f) ? 0.0 : n / (f - n);
+    k->z_lo = dp_float_up(n);
+    k->beyond = dp_float_up(f);
+    k->near_code = b->setup.code_near;
+    k->far_code = b->setup.code_far;
+    k->reach = (float)p;
+    k->reach_rest = (float)(b->setup.reversed ? p - (double)k->reach : (double)k->reach - p);
+    k->offset = (float)s;
+    k->offset_rest = (float)(b->setup.reversed ? (double)k->offset - s : s - (double)k->offset);
+    k->unsure = (float)s * 0x1p-43F;
+    dp_batch_write(b)->doubt = 1;
+    return 1;
+}
+
+static int binary32_standard(dp_batch *b) {
+    return !b->setup.reversed && binary32(b);
+}
+
+static int binary32_reversed(dp_batch *b) {
+    return b->setup.reversed && binary32(b);
+}
+
 /* c/M = c 2^-N + c (1/M - 2^-N): right in binary32 for every code of these formats (test_batch.c tries all). */
 static int value_unorm(dp_batch *b) {
     const int bits = b->setup.spec.format.bits;
@@ -266,6 +300,8 @@ static const direct_row direct_rows[] = {
     {DP_TASK_CODE, UNORM, PERSPECTIVE, DP_WORD_32, DP_KERNEL_STANDARD_32, quotient_standard},
     {DP_TASK_CODE, UNORM, PERSPECTIVE, DP_WORD_16, DP_KERNEL_REVERSED_16, quotient_reversed},
     {DP_TASK_CODE, UNORM, PERSPECTIVE, DP_WORD_32, DP_KERNEL_REVERSED_32, quotient_reversed},
+    {DP_TASK_CODE, FLOAT, PERSPECTIVE, DP_WORD_32, DP_KERNEL_BINARY32_STANDARD, binary32_standard},
+    {DP_TASK_CODE, FLOAT, PERSPECTIVE, DP_WORD_32, DP_KERNEL_BINARY32_REVERSED, binary32_reversed},
     {DP_TASK_EYE, UNORM, PERSPECTIVE, DP_WORD_16, DP_KERNEL_FAST_EYE_16, fast_eye},
     {DP_TASK_EYE, UNORM, PERSPECTIVE, DP_WORD_32, DP_KERNEL_FAST_EYE_32, fast_eye},
     {DP_TASK_ENCODE, UNORM, ANY, DP_WORD_16, DP_KERNEL_UNORM_OF_FLOAT_16, nearest_unorm},

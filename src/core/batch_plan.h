@@ -31,7 +31,8 @@
     X(STANDARD_16) X(STANDARD_32) X(REVERSED_16) X(REVERSED_32)                                                        \
     X(UNORM_OF_FLOAT_16) X(UNORM_OF_FLOAT_32) X(UNORM24_OF_FLOAT)                                                      \
     X(FLOAT_OF_UNORM_16) X(FLOAT_OF_UNORM_32)                                                                          \
-    X(HALF_OF_FLOAT) X(FLOAT_OF_HALF) X(BITS_OF_FLOAT) X(FLOAT_OF_BITS) X(FAST_EYE_16) X(FAST_EYE_32)
+    X(HALF_OF_FLOAT) X(FLOAT_OF_HALF) X(BITS_OF_FLOAT) X(FLOAT_OF_BITS) X(FAST_EYE_16) X(FAST_EYE_32)                  \
+    X(BINARY32_STANDARD) X(BINARY32_REVERSED)
 /* clang-format on */
 
 #define DP_BATCH_NAME(K) DP_KERNEL_##K,
@@ -50,6 +51,8 @@ typedef struct DP_BATCH_ALIAS dp_batch_numbers {
     float z_lo, z_hi, reach, reach_rest, reach_inverse, offset;
     int32_t whole;
     float unit, unit_rest, split, eye_top, eye_slope, eye_base;
+    float offset_rest, unsure, beyond;
+    uint32_t near_code, far_code;
 } dp_batch_numbers;
 
 typedef struct DP_BATCH_ALIAS dp_batch_own {

@@ -79,6 +79,23 @@ def textbook(camera, z, codes):
         print("numpy's textbook %s, %d: %.3f ns, %s" % (name, len(z), best(work, 20) / len(z), wrong(work())))
 
 
+def floats(depthprec, z):
+    """A float buffer's codes beside numpy's formula for them, in turn: its bits, some of them wrong."""
+    near, far = numpy.float32(0.1), numpy.float32(1000)
+    for mapping, formula in (("d3d", lambda some: far / (far - near) * (1 - near / some)),
+                             ("reversed", lambda some: near / (far - near) * (far / some - 1))):
+        encode = depthprec.Camera(0.1, 1000, "fp32", mapping).encode
+        for count in (100000, len(z)):
+            some, least = z[:count], [1e300, 1e300]
+            for _ in range(max(20, 20000000 // count)):
+                least = [min(x, best(work, 1)) for x, work in zip(least, (
+                    lambda: encode(some), lambda: formula(some).view(numpy.uint32)))]
+            ratio = least[0] / least[1]
+            print("%-34s %8d  %8.3f ns, numpy's formula %.3f ns  %5.2f" % (
+                "encode float32, fp32 " + mapping, count, least[0] / count, least[1] / count, ratio))
+            note(ratio <= AIM, "python: encode of numpy's formula, fp32 %s, %d" % (mapping, count), ratio)
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         zipfile.ZipFile(sorted(glob.glob(BUILD + "/dist/depthprec-*.whl"))[-1]).extractall(folder)
@@ -103,6 +120,7 @@ def main():
         measure(loop, "window depth float32", camera, 7, 0, 1, camera.window_depth, z, f)
         if numpy:
             textbook(camera, z, codes)
+            floats(depthprec, z)
             for name, count in (("separation", 10000), ("lattice", 10000), ("interval", 10000), ("quick", 100000), ("quick", most)):
                 some = z[:count]
                 quick = {"quick": True} if name == "quick" else {}

@@ -32,6 +32,8 @@ Decoded = _namedtuple("Decoded", "z lo hi")
 Decoded.__class_getitem__ = classmethod(lambda cls, kind: cls)  # Decoded[float] of the stubs
 Decoded.__doc__ = "Eye depths, and the ends of the cells around them: what else the surface may be at."
 
+_SLOW = dict.fromkeys(("separation", "lattice", "interval"), 1 << 13)  # elements of a block, where they take long
+
 Worst = _namedtuple("Worst", "lo hi error error_z error_code interval interval_lo interval_hi interval_code blind_from "
                              "separation separation_z")
 Worst.__doc__ = """The worst over a range, proven bounds over every depth in it; see Camera.worst()."""
@@ -267,7 +269,7 @@ class Camera:
         """
         read = _arrays.given(codes, "codes", self._direct)
         if read is not None:
-            return self._decoded(codes, read, bounds, out)
+            return self._decoded(codes, read, out) if bounds else self._fill("eye", codes, read, out)
         code = codes.item() if hasattr(codes, "item") else codes
         if isinstance(code, bool) or not isinstance(code, int):
             raise TypeError("a code must be a whole number: window depths are for decode_window(), got %r" % (code,))
@@ -289,11 +291,11 @@ class Camera:
         """
         read = _arrays.given(depths, "window depths")
         if read is not None:
-            kind = None if isinstance(depths, (list, tuple)) else memoryview(depths)
+            kind = None if read.obj is depths or isinstance(depths, (list, tuple)) else memoryview(depths)
             if kind is not None and kind.nbytes and _arrays.element(kind)[0] not in "efd":
                 raise TypeError("window depths must be float16, float32 or float64: codes are for decode(), got %s"
                                 % _arrays.name_of(kind))
-            return self._decoded(depths, read, bounds, out)
+            return self._decoded(depths, read, out) if bounds else self._fill("eye", depths, read, out)
         depth = _number(depths, "a window depth")
         if not 0 <= depth <= 1:
             raise Error("a window depth must be from 0 to 1, got %r" % depth)
@@ -406,7 +408,9 @@ class Camera:
             after = (None,) * (2 - len(before))
 
             def call(start, to, count):
-                _core.demand(_core.batch_windows(setup, real, start, *before, to, *after, count))
+                status = _core.batch_windows(setup, real, start, *before, to, *after, count)
+                if status != 0:
+                    _core.demand(status)
         else:
             batch = _core.Batch()
             _core.demand(_core.batch_init(batch, setup, _core.TASK[task], real, word, _core.path_best()))
@@ -426,14 +430,15 @@ class Camera:
         call, in_place = self._calls.get(kind) or self._call(*kind)
         start, to, count = _arrays.places(read, write, in_place)
         # Between blocks Ctrl-C is heard: at most some milliseconds each.
-        block = 1 << 13 if name in ("separation", "lattice", "interval") else 1 << 18
+        block = _SLOW.get(name, 1 << 18)
+        if run and count <= block:
+            call(start, to, count)
+            return out
         for at in range(0, count if run else 0, block):
             call(start + at * read.itemsize, to + at * write.itemsize, min(block, count - at))
         return out
 
-    def _decoded(self, values, read, bounds, out):
-        if not bounds:
-            return self._fill("eye", values, read, out)
+    def _decoded(self, values, read, out):
         outs = (None,) * 3 if out is None else tuple(out)
         if len(outs) != 3:
             raise ValueError("out must be three arrays with bounds, got %d" % len(outs))

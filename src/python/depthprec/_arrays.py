@@ -48,9 +48,9 @@ def numpy_module():
 def as_it_lies(method):
     """Arrays of numpy in Fortran's order are read as they lie, and their results lie so, too, where no `out` is given."""
     @functools.wraps(method)
-    def work(self, values, **options):
-        if not getattr(getattr(values, "flags", None), "fnc", False) or options.get("out") is not None:
-            return method(self, values, **options)
+    def work(self, values, *, out=None, **options):
+        if out is not None or not getattr(getattr(values, "flags", None), "fnc", False):
+            return method(self, values, out=out, **options)
         made = method(self, values.T, **options)
         return type(made)(*(each.T for each in made)) if isinstance(made, tuple) else made.T
 
