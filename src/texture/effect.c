@@ -6,43 +6,25 @@
 #include "core/bits.h"
 #include "core/elementary.h"
 #include "shader/packing.h"
-#include "texture/rows.h"
+#include "texture/effect_corners.h"
 
-static const double LEVELS = 255;
-
-/* The constants of a row of pixels. */
-typedef struct work {
-    const frame_row *in;
-    const effect_row *row;
-    const texture_camera *camera;
-    const dp_setup *planes;
-    const double *parameters;
-    float rounded[PARAMETERS_MAX]; /* the parameters, as uniforms */
-    double reference;              /* NaN where none is given */
-    effect_pixel other;            /* the reference, as uniforms */
-    decode_constants eye, eye01;
-    bool decodes; /* eye01 by a decoding of its own; else eye depth times inverse_far */
-    float inverse_far;
-    float last[3][4];
-} work;
-
-static work work_of(const frame_row *in) {
+static effect_work work_of(const frame_row *in) {
     const frame_product *product = in->product;
     const texture_camera *c = in->frame->camera, *then = in->frame->last != NULL ? in->frame->last : c;
     const dp_setup *planes = frame_planes(in->frame);
     const double reference = effect_reference(product->effect, product->effect_settings, planes->spec.zfar);
     double m[16];
-    work w = {.in = in,
-              .row = product->effect,
-              .camera = c,
-              .planes = planes,
-              .parameters = product->effect_settings,
-              .reference = reference,
-              .other = {.eye = (float)reference, .eye01 = (float)(reference / planes->spec.zfar)},
-              .eye = decode_usual(&c->setup)->constants(&c->setup),
-              .eye01 = decode_rows[DECODE_LINEAR_01].constants(&c->setup),
-              .decodes = !in->frame->metric && decode_applies(&decode_rows[DECODE_LINEAR_01], &c->setup),
-              .inverse_far = (float)(1 / planes->spec.zfar)};
+    effect_work w = {.in = in,
+                     .row = product->effect,
+                     .camera = c,
+                     .planes = planes,
+                     .parameters = product->effect_settings,
+                     .reference = reference,
+                     .other = {.eye = (float)reference, .eye01 = (float)(reference / planes->spec.zfar)},
+                     .eye = decode_usual(&c->setup)->constants(&c->setup),
+                     .eye01 = decode_rows[DECODE_LINEAR_01].constants(&c->setup),
+                     .decodes = !in->frame->metric && decode_applies(&decode_rows[DECODE_LINEAR_01], &c->setup),
+                     .inverse_far = (float)(1 / planes->spec.zfar)};
     position_matrix(then, m);
     for (int i = 0; i < 12; i++)
         w.last[i / 4][i % 4] = (float)m[i < 8 ? i : i + 4];
@@ -51,31 +33,17 @@ static work work_of(const frame_row *in) {
     return w;
 }
 
-static effect_view view_at(const work *w, uint32_t x) {
+static effect_view view_at(const effect_work *w, uint32_t x) {
     effect_view view = effect_view_of(w->camera, w->in->frame->last, x, w->in->row);
     view.setup = w->planes;
     return view;
 }
 
-/* @param d  the window depth of the code */
-static effect_pixel seen_as(const work *w, uint32_t column, uint32_t row, uint32_t code, float d) {
-    effect_pixel p = {.last = w->last};
-    if (camera_is_shared(w->camera))
-        decode_apply(&w->eye, &d, &p.eye, 1);
-    else
-        p.eye = (float)pixel_stored(w->camera, column, row, code);
-    if (w->decodes)
-        decode_apply(&w->eye01, &d, &p.eye01, 1);
-    else
-        p.eye01 = p.eye * w->inverse_far;
-    return p;
+static effect_pixel seen_at(const effect_work *w, uint32_t x) {
+    return effect_seen_as(w, x, w->in->row, w->in->codes[x], w->in->depth[x]);
 }
 
-static effect_pixel seen_at(const work *w, uint32_t x) {
-    return seen_as(w, x, w->in->row, w->in->codes[x], w->in->depth[x]);
-}
-
-static effect_pixel pixel_at(const work *w, uint32_t x) {
+static effect_pixel pixel_at(const effect_work *w, uint32_t x) {
     const position_state *s = w->in->position;
     effect_pixel p = seen_at(w, x);
     for (int k = 0; k < 3 && (w->row->needs & EFFECT_POSITION) != 0; k++)
@@ -87,7 +55,7 @@ static effect_pixel pixel_at(const work *w, uint32_t x) {
 }
 
 /* World positions as image effects get them. */
-static void places(const work *w) {
+static void places(const effect_work *w) {
     const frame_row *in = w->in;
     const position_row *by = &position_rows[w->camera->ortho ? POSITION_EXTENTS : POSITION_RAYS];
     if (!position_applies(by, w->camera)) /* a far plane at 0, by which nothing can be divided */
@@ -100,208 +68,30 @@ static void places(const work *w) {
         frame_exact_places(in);
 }
 
-/* ---- Corners ----------------------------------------------------------------------------------------------------- */
-
-/* A pixel and the corners of a square around it: 0 and 3 are opposite, and 1 and 2. */
-enum { CORNERS = 4, MIDDLE = CORNERS, TAPS };
-
-/* The pairs of taps that are compared, and how many outputs make one. */
-static const struct {
-    int count, first[CORNERS], second[CORNERS];
-} compared[] = {
-    [EFFECT_DIAGONALS] = {2, {0, 1}, {3, 2}},
-    [EFFECT_AROUND] = {4, {MIDDLE, MIDDLE, MIDDLE, MIDDLE}, {0, 1, 2, 3}},
-};
-
-typedef struct tap {
-    uint32_t column, row, code;
-} tap;
-
-/* Beyond the border the outermost pixels go on. @return false at a hole */
-static bool taps_of(const work *w, uint32_t x, tap out[TAPS]) {
-    const int64_t step = (int64_t)w->parameters[parameter_find(w->row->parameters, "sample-distance")];
-    const int64_t width = w->camera->width, height = w->camera->height;
-    for (int i = 0; i < TAPS; i++) {
-        const int64_t away = i == MIDDLE ? 0 : step;
-        const int64_t column = (int64_t)x + (i % 2 == 0 ? -away : away), row = w->in->row + (i < 2 ? -away : away);
-        out[i].column = (uint32_t)(column < 0 ? 0 : column < width ? column : width - 1);
-        out[i].row = (uint32_t)(row < 0 ? 0 : row < height ? row : height - 1);
-        out[i].code = w->in->codes[((int64_t)out[i].row - w->in->row) * width + out[i].column];
-        if (out[i].code == UINT32_MAX)
-            return false;
-    }
-    return true;
-}
-
-/* Sky is as far as the far plane, which the buffer was cleared to, and faces the camera. */
-static synthetic_hit hit_of(const work *w, const tap *at) {
-    synthetic_hit hit;
-    w->in->frame->synthetic->hit(w->camera, w->in->frame->parameters, at->column, at->row, &hit);
-    if (isinf(hit.z))
-        hit = (synthetic_hit){.z = w->planes->spec.zfar, .normal = {0, 0, -1}};
-    return hit;
-}
-
-static size_t pixel_of(const work *w, const tap *at) {
-    return (size_t)at->row * w->camera->width + at->column;
-}
-
-/* The normal that the texture of depths and normals holds: z towards the camera, in two channels of 8 bits. */
-static void packed_normal(const work *w, const tap *at, double out[3]) {
-    uint8_t texel[2];
-    const uint8_t *packed = texel;
-    if (w->in->frame->normals != NULL) {
-        packed = w->in->frame->normals->texels + 2 * pixel_of(w, at);
-    } else {
-        const synthetic_hit hit = hit_of(w, at);
-        packing_normal_texel((const double[]){hit.normal[0], hit.normal[1], fmax(-hit.normal[2], 0)}, texel);
-    }
-    packing_normal(packed, out);
-}
-
-static float corners(const work *w, uint32_t x) {
-    tap at[TAPS];
-    effect_pixel seen[TAPS];
-    const bool around = w->row->taps == EFFECT_AROUND;
-    float all = 0;
-    if (!taps_of(w, x, at))
-        return NAN;
-    for (int i = 0; i < TAPS; i++) {
-        seen[i] = seen_as(w, at[i].column, at[i].row, at[i].code,
-                          (float)dp_format_value(&w->camera->setup.spec.format, at[i].code));
-        double normal[3] = {0, 0, 0};
-        if ((w->row->needs & EFFECT_NORMALS) != 0)
-            packed_normal(w, &at[i], normal);
-        for (int k = 0; k < 3; k++)
-            seen[i].normal[k] = (float)normal[k];
-    }
-    for (int k = 0; k < compared[w->row->taps].count; k++) {
-        const effect_pixel *first = &seen[compared[w->row->taps].first[k]];
-        const float one = w->row->shader(first, w->rounded, &seen[compared[w->row->taps].second[k]]);
-        all = around ? all + one / CORNERS : fmaxf(all, one);
-    }
-    return all;
-}
-
-/* The same, exact for what is stored. */
-static double exact_corners(const work *w, uint32_t x) {
-    const bool around = w->row->taps == EFFECT_AROUND, normals = (w->row->needs & EFFECT_NORMALS) != 0;
-    tap at[TAPS];
-    double all = 0;
-    if (!taps_of(w, x, at))
-        return (double)NAN;
-    for (int k = 0; k < compared[w->row->taps].count; k++) {
-        const tap *two[2] = {&at[compared[w->row->taps].first[k]], &at[compared[w->row->taps].second[k]]};
-        effect_view view = {.setup = w->planes};
-        double z[2];
-        for (int i = 0; i < 2; i++) {
-            z[i] = pixel_stored(w->camera, two[i]->column, two[i]->row, two[i]->code);
-            if (normals && w->in->frame->normals != NULL)
-                packed_normal(w, two[i], view.normals[i]);
-            else if (normals)
-                memcpy(view.normals[i], hit_of(w, two[i]).normal, sizeof view.normals[i]);
-        }
-        const double one = w->row->output(&view, w->parameters, z[0], z[1]);
-        all = around ? all + one / CORNERS : fmax(all, one);
-    }
-    return all;
-}
-
-/* How far |x| + |y| of a normal may be off: what packing it lost, and what it was off before. */
-static double normal_reach(const work *w, const tap *at) {
-    const frame_normals *normals = w->in->frame->normals;
-    const size_t pixel = pixel_of(w, at);
-    const double off = normals->off != NULL ? normals->off[pixel] * DP_DEGREE / FRAME_NORMAL_DEGREE : 0;
-    return packing_normal_reach(normals->texels + 2 * pixel, normals->truncated) + M_SQRT2 * 2 * dp_sin(off / 2);
-}
-
-/* The span of |x| + |y| between two normals that an image leaves open: views whose normals differ least and most. */
-static void views_between(const work *w, const tap *a, const tap *b, effect_view views[2]) {
-    double one[3], two[3];
-    views[0] = views[1] = (effect_view){.setup = w->planes};
-    if ((w->row->needs & EFFECT_NORMALS) == 0)
-        return;
-    packed_normal(w, a, one);
-    packed_normal(w, b, two);
-    const double turned = fabs(one[0] - two[0]) + fabs(one[1] - two[1]);
-    const double reach = normal_reach(w, a) + normal_reach(w, b);
-    views[0].normals[0][0] = fmax(turned - reach, 0);
-    views[1].normals[0][0] = turned + reach;
-}
-
-/* Whether an output can be, and must be, 1 when two depths lie where their samples allow: it depends on how far apart
- * they are, which is decided at the ends, or where they are the same. */
-static void outputs_between(const work *w, const tap *a, const tap *b, double out[2]) {
-    const grain_range one = pixel_range_of(w->camera, w->in->frame->grain, a->column, a->row, a->code);
-    const grain_range two = pixel_range_of(w->camera, w->in->frame->grain, b->column, b->row, b->code);
-    const bool around = w->row->taps == EFFECT_AROUND;
-    const double same = fmax(one.lo, two.lo), wanted = w->parameters[w->row->wanted];
-    const double pairs[3][2] = {{one.lo, two.hi}, {one.hi, two.lo}, {same, same}};
-    const int count = same <= fmin(one.hi, two.hi) ? 3 : 2;
-    effect_view views[2];
-    views_between(w, a, b, views);
-    out[0] = 1;
-    out[1] = around && one.lo - two.hi <= wanted && one.hi - two.lo > wanted; /* it is 1 right above */
-    for (int k = 0; k < count; k++)
-        for (int i = 0; i < 2; i++) {
-            const double output = w->row->output(&views[i], w->parameters, pairs[k][0], pairs[k][1]);
-            out[0] = fmin(out[0], output);
-            out[1] = fmax(out[1], output);
-        }
-}
-
-static void outputs_of(const work *w, const tap *a, const tap *b, double out[2]) {
-    if (w->in->frame->synthetic == NULL) {
-        outputs_between(w, a, b, out);
-        return;
-    }
-    const synthetic_hit hits[2] = {hit_of(w, a), hit_of(w, b)};
-    effect_view view = {.setup = w->planes};
-    for (int i = 0; i < 2; i++)
-        memcpy(view.normals[i], hits[i].normal, sizeof view.normals[i]);
-    out[0] = out[1] = w->row->output(&view, w->parameters, hits[0].z, hits[1].z);
-}
-
-/* The error of an effect of corners: in a synthetic image the true one, in an image the largest possible. */
-static double corners_error(const work *w, uint32_t x) {
-    tap at[TAPS];
-    const bool around = w->row->taps == EFFECT_AROUND;
-    const float seen = corners(w, x);
-    double all[2] = {0, 0};
-    if (isnan(seen) || !taps_of(w, x, at))
-        return NAN;
-    for (int k = 0; k < compared[w->row->taps].count; k++) {
-        double one[2];
-        outputs_of(w, &at[compared[w->row->taps].first[k]], &at[compared[w->row->taps].second[k]], one);
-        for (int i = 0; i < 2; i++)
-            all[i] = around ? all[i] + one[i] / CORNERS : fmax(all[i], one[i]);
-    }
-    return LEVELS * fmax(fabs((double)seen - all[0]), fabs((double)seen - all[1]));
-}
-
 /* ---- One pixel --------------------------------------------------------------------------------------------------- */
 
 /*
  * The most that binary32 adds where the output is at most 1: a few roundings of that, and one of the depth that it
  * compares with, which lies no farther off than the output tells; what is seen is read as it is.
  */
-static double rounding_error(const work *w, const effect_view *view, double seen) {
+static double rounding_error(const effect_work *w, const effect_view *view, double seen) {
     const double p = w->parameters[w->row->wanted], depth = w->row->apart(view, w->parameters, seen, 0);
-    return LEVELS * DP_UNIT * (8 + (w->row->kind == EFFECT_FADE ? depth / p : depth * p));
+    return EFFECT_LEVELS * DP_UNIT * (8 + (w->row->kind == EFFECT_FADE ? depth / p : depth * p));
 }
 
 /* Where what it is compared with is not known, it lies where the error is largest. */
-static double worst_error(const work *w, const effect_view *view, const effect_pixel *pixel, const grain_range *range) {
+static double worst_error(const effect_work *w, const effect_view *view, const effect_pixel *pixel,
+                          const grain_range *range) {
     const double seen = w->row->eye01 ? (double)pixel->eye01 * w->planes->spec.zfar : (double)pixel->eye;
     const effect_depths depths = {.seen = seen, .lo = range->lo, .hi = range->hi};
     const double error = effect_error_within(w->row, view, w->parameters, &depths);
     if (w->row->apart == NULL)
-        return isnan(error) ? LEVELS : error;
+        return isnan(error) ? EFFECT_LEVELS : error;
     return error + rounding_error(w, view, depths.seen);
 }
 
 /* A ramp of a concave quantity, which is least at an end of the range. */
-static double ramp_error(const work *w, const effect_view *view, double stored, const grain_range *range) {
+static double ramp_error(const effect_work *w, const effect_view *view, double stored, const grain_range *range) {
     const double p = w->parameters[w->row->wanted];
     const double ends[3] = {
         fmin(w->row->quantity(view, w->parameters, range->lo), w->row->quantity(view, w->parameters, range->hi)),
@@ -309,41 +99,41 @@ static double ramp_error(const work *w, const effect_view *view, double stored, 
     double outputs[3];
     for (int i = 0; i < 3; i++)
         outputs[i] = p > 0 ? fmin(fmax(ends[i] / p, 0), 1) : ends[i] >= 0;
-    return LEVELS * fmax(fmax(outputs[1] - outputs[0], outputs[2] - outputs[1]), 0);
+    return EFFECT_LEVELS * fmax(fmax(outputs[1] - outputs[0], outputs[2] - outputs[1]), 0);
 }
 
 /* Outputs are monotone on either side of the depth that they compare with, and doubles. */
-static double range_error(const work *w, const effect_view *view, double stored, const grain_range *range) {
+static double range_error(const effect_work *w, const effect_view *view, double stored, const grain_range *range) {
     const double at = w->row->output(view, w->parameters, stored, w->reference);
     const double ends[3] = {range->lo, range->hi,
                             w->reference > range->lo && w->reference < range->hi ? w->reference : stored};
     const effect_depths depths = {.seen = stored, .lo = range->lo, .hi = range->hi};
     double error = 0;
     if (!w->row->given && w->row->kind == EFFECT_GAIN)
-        return effect_error_within(w->row, view, w->parameters, &depths) + LEVELS * 0x1p-48;
+        return effect_error_within(w->row, view, w->parameters, &depths) + EFFECT_LEVELS * 0x1p-48;
     if (!w->row->given && w->row->kind == EFFECT_FADE && w->row->quantity != NULL)
         return ramp_error(w, view, stored, range);
     for (int i = 0; i < 3; i++)
-        error = fmax(error, LEVELS * fabs(w->row->output(view, w->parameters, ends[i], w->reference) - at));
+        error = fmax(error, EFFECT_LEVELS * fabs(w->row->output(view, w->parameters, ends[i], w->reference) - at));
     return error;
 }
 
 /* The pixel that `refraction` names, as far as the picture goes. */
-static uint32_t aside_of(const work *w, uint32_t x) {
+static uint32_t aside_of(const effect_work *w, uint32_t x) {
     const int index = parameter_find(w->row->parameters, "refraction");
     const int64_t at = x + (index >= 0 ? (int64_t)w->parameters[index] : 0), width = w->camera->width;
     return (uint32_t)(at < 0 ? 0 : at < width ? at : width - 1);
 }
 
 /* Where the effect looks: beside the pixel if it refracts, unless what is there lies before the surface, or is none. */
-static uint32_t looks_at(const work *w, uint32_t x) {
+static uint32_t looks_at(const effect_work *w, uint32_t x) {
     const uint32_t at = aside_of(w, x);
     if (at == x || isnan(w->in->eyes[NORMAL_REACH][at]))
         return x;
     return seen_at(w, at).eye >= w->other.eye ? at : x;
 }
 
-static float output_at(const work *w, uint32_t x) {
+static float output_at(const effect_work *w, uint32_t x) {
     const uint32_t at = looks_at(w, x);
     effect_pixel pixel = pixel_at(w, x);
     if (at != x) {
@@ -355,32 +145,32 @@ static float output_at(const work *w, uint32_t x) {
 }
 
 /* Exact for what is stored. */
-static double exact_at(const work *w, const effect_view *view, uint32_t x) {
+static double exact_at(const effect_work *w, const effect_view *view, uint32_t x) {
     const uint32_t at = looks_at(w, x);
     return w->row->output(view, w->parameters, pixel_stored(w->camera, at, w->in->row, w->in->codes[at]), w->reference);
 }
 
 /* In a synthetic image the truth decides where the effect should have looked. */
-static double true_output(const work *w, const effect_view *view, uint32_t x) {
+static double true_output(const effect_work *w, const effect_view *view, uint32_t x) {
     const uint32_t at = aside_of(w, x);
     const double own = frame_truth(w->in, x).z, beside = at == x ? own : frame_truth(w->in, at).z;
     return w->row->output(view, w->parameters, beside >= w->reference ? beside : own, w->reference);
 }
 
 /* The largest error of a refracted pixel: it looks beside itself if the depth there is no nearer than the surface. */
-static double refracted_error(const work *w, const effect_view *view, double seen, double surface,
+static double refracted_error(const effect_work *w, const effect_view *view, double seen, double surface,
                               const grain_range ranges[2]) {
     const grain_range *own = &ranges[0], *beside = &ranges[1];
     const double ends[4] = {own->lo, own->hi, fmax(beside->lo, surface), beside->hi};
     double error = 0;
     for (int i = beside->lo < surface ? 0 : 2; i < (beside->hi >= surface ? 4 : 2); i++)
-        error = fmax(error, LEVELS * fabs(w->row->output(view, w->parameters, ends[i], surface) - seen));
+        error = fmax(error, EFFECT_LEVELS * fabs(w->row->output(view, w->parameters, ends[i], surface) - seen));
     return error;
 }
 
 /* The error of a pixel that looks through the one beside it. An unknown surface may lie where the choice between the
  * two turns, or where the error of one is largest: at an end of what either may be, at what is seen, or next to it. */
-static double through_error(const work *w, const effect_view *view, uint32_t x, uint32_t beside) {
+static double through_error(const effect_work *w, const effect_view *view, uint32_t x, uint32_t beside) {
     frame_ranges last = frame_no_range();
     grain_range ranges[2];
     ranges[0] = *frame_range_of(w->in, &last, x);
@@ -400,16 +190,16 @@ static double through_error(const work *w, const effect_view *view, uint32_t x, 
 }
 
 /* The error of a vector: by components, as it may turn without growing. */
-static double vector_off(const work *w, const effect_view *view, uint32_t x, double z) {
+static double vector_off(const effect_work *w, const effect_view *view, uint32_t x, double z) {
     const effect_pixel pixel = pixel_at(w, x);
     float seen[2];
     double exact[2];
     w->row->vector(&pixel, w->rounded, seen);
     w->row->exact_vector(view, w->parameters, z, exact);
-    return LEVELS * dp_hypot((double)seen[0] - exact[0], (double)seen[1] - exact[1]);
+    return EFFECT_LEVELS * dp_hypot((double)seen[0] - exact[0], (double)seen[1] - exact[1]);
 }
 
-static double error_at(const work *w, frame_ranges *last, uint32_t x) {
+static double error_at(const effect_work *w, frame_ranges *last, uint32_t x) {
     const effect_view view = view_at(w, x);
     const uint32_t beside = aside_of(w, x);
     const bool anywhere = w->row->given && isnan(w->reference);
@@ -422,7 +212,7 @@ static double error_at(const work *w, frame_ranges *last, uint32_t x) {
     const bool scene = w->in->frame->synthetic != NULL;
     const double seen = (double)output_at(w, x), stored = pixel_stored(w->camera, x, w->in->row, w->in->codes[x]);
     const double z = scene ? frame_truth(w->in, x).z : stored;
-    const double alone = LEVELS * fabs(seen - (scene ? true_output : exact_at)(w, &view, x)),
+    const double alone = EFFECT_LEVELS * fabs(seen - (scene ? true_output : exact_at)(w, &view, x)),
                  off = isnan(z)       ? (double)NAN
                        : w->row->wide ? fmax(vector_off(w, &view, x, z), alone) /* a length has roundings of its own */
                                       : alone;
@@ -431,17 +221,17 @@ static double error_at(const work *w, frame_ranges *last, uint32_t x) {
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
-static bool is_hidden(const work *w, uint32_t x) {
+static bool is_hidden(const effect_work *w, uint32_t x) {
     return w->in->product->hides && seen_at(w, x).eye < w->other.eye;
 }
 
 void frame_effect(const frame_row *in) {
-    const work w = work_of(in);
+    const effect_work w = work_of(in);
     places(&w);
     for (uint32_t x = 0; x < w.camera->width; x++) {
         const bool alone = w.row->taps == EFFECT_ALONE,
                    none = alone && (isnan(in->eyes[NORMAL_REACH][x]) || is_hidden(&w, x));
-        const float value = none ? NAN : alone ? output_at(&w, x) : corners(&w, x);
+        const float value = none ? NAN : alone ? output_at(&w, x) : effect_corners(&w, x);
         if (in->product->vector) {
             float *out = in->out + 3 * (size_t)x;
             const effect_pixel pixel = pixel_at(&w, x);
@@ -454,13 +244,13 @@ void frame_effect(const frame_row *in) {
         in->out[x] = value;
         if (in->product->lost && !none) {
             const effect_view view = view_at(&w, x);
-            in->out[x] = (float)((double)value - (alone ? exact_at(&w, &view, x) : exact_corners(&w, x)));
+            in->out[x] = (float)((double)value - (alone ? exact_at(&w, &view, x) : effect_corners_exact(&w, x)));
         }
     }
 }
 
 void frame_effect_error(const frame_row *in) {
-    const work w = work_of(in);
+    const effect_work w = work_of(in);
     const bool alike = in->frame->synthetic == NULL && camera_is_shared(w.camera) &&
                        (w.row->needs & EFFECT_POSITION) == 0; /* as far as codes are */
     frame_ranges last = frame_no_range();
@@ -468,7 +258,7 @@ void frame_effect_error(const frame_row *in) {
     for (uint32_t x = 0; x < w.camera->width; x++) {
         double error = NAN;
         if (w.row->taps != EFFECT_ALONE)
-            error = corners_error(&w, x);
+            error = effect_corners_error(&w, x);
         else if (isnan(in->eyes[NORMAL_REACH][x]))
             error = NAN;
         else if (alike && x > 0 && in->codes[x] == in->codes[x - 1] && aside_of(&w, x) == x)
@@ -476,6 +266,6 @@ void frame_effect_error(const frame_row *in) {
         else
             error = error_at(&w, &last, x);
         const bool exact = w.row->taps != EFFECT_ALONE; /* so many quarters */
-        in->out[x] = isnan(error) ? NAN : exact ? (float)error : fminf(frame_upwards(error), (float)LEVELS);
+        in->out[x] = isnan(error) ? NAN : exact ? (float)error : fminf(frame_upwards(error), (float)EFFECT_LEVELS);
     }
 }
