@@ -11,7 +11,7 @@ import { createImagePanel } from "./image_panel.js";
 import { axesNow, crossTo, DARK, narrow, observeWidths, save, TYPE } from "./outputs.js";
 import { createPicture } from "./picture.js";
 import { heard, later, onScreen, release, showKnown, showPicture, showRun, want } from "./schedule.js";
-import { unpack } from "./unpack.js";
+import { unpack } from "./unpack.mjs";
 import {
     $, $$, commandOf, fields, FIGURES, link, make, mapOf, page, pictured, pictureLines, refuse, SCHEMES, SECOND, set, setLink,
     setTheme, shown, state, takes, unitOf, VERBS, words,

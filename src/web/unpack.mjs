@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The module is packed by LZMA, a tenth smaller than what browsers unpack by themselves: the format's decoder. Its header
-// says how many bytes there are; a marker ends them.
-const MATCH = 0, REP = 192, REP_0 = 204, REP_1 = 216, REP_2 = 228, REP_0_LONG = 240, SLOT = 432, PLACE = 688, ALIGN = 803, LENGTH = 819,
-    REP_LENGTH = 1333, LITERAL = 1847, HEADER = 13; // where the chances of each kind of bit begin
+// The module's streams are packed by LZMA, a tenth smaller than what browsers unpack by themselves: the format's decoder, of
+// places that count for nothing (lp=0, pb=0). Its header says how many bytes there are; a marker ends them.
+import { together } from "./streams.mjs";
+
+export const BEFORE = 2; // lc: bits of the byte before that tell what a byte is likely to be
+const MATCH = 0, REP = 12, REP_0 = 24, REP_1 = 36, REP_2 = 48, REP_0_LONG = 60, SLOT = 72, PLACE = 328, ALIGN = 443, LENGTH = 459,
+    REP_LENGTH = 733, LITERAL = 1007, HEADER = 13; // where the chances of each kind of bit begin
 
 // Bits from the range coder, each by its own chance, of 2048.
 function bitsOf(bytes, count) {
@@ -33,9 +36,8 @@ function bitsOf(bytes, count) {
     return { bit, even };
 }
 
-export function unpack(bytes) {
-    const [head] = bytes, lc = head % 9, lp = Math.floor(head / 9) % 5, pb = Math.floor(head / 45), out = new Uint8Array(new DataView(bytes.buffer, bytes.byteOffset).getUint32(5, true));
-    const { bit, even } = bitsOf(bytes, LITERAL + (0x300 << (lc + lp)));
+function inflate(bytes) {
+    const out = new Uint8Array(new DataView(bytes.buffer).getUint32(5, true)), { bit, even } = bitsOf(bytes, LITERAL + (0x300 << BEFORE));
     const tree = (base, bits) => {
         let at = 1;
         for (let i = 0; i < bits; i++) at = (at << 1) | bit(base + at);
@@ -50,7 +52,7 @@ export function unpack(bytes) {
         }
         return all;
     };
-    const length = (base, place) => 2 + (!bit(base) ? tree(base + 2 + 8 * place, 3) : !bit(base + 1) ? 8 + tree(base + 130 + 8 * place, 3) : 16 + tree(base + 258, 8));
+    const length = (base) => 2 + (!bit(base) ? tree(base + 2, 3) : !bit(base + 1) ? 8 + tree(base + 10, 3) : 16 + tree(base + 18, 8));
     const distance = (size) => {
         const slot = tree(SLOT + 64 * Math.min(size - 2, 3), 6), bits = (slot >> 1) - 1, from = (2 | (slot & 1)) << bits;
         if (slot < 4) return slot;
@@ -59,8 +61,8 @@ export function unpack(bytes) {
         for (let i = 4; i < bits; i++) direct = 2 * direct + even();
         return (2 | (slot & 1)) * 2 ** bits + 16 * direct + lowFirst(ALIGN, 4);
     };
-    const literal = (at, before, matched) => {
-        const base = LITERAL + 0x300 * (((at & ((1 << lp) - 1)) << lc) + (before >> (8 - lc)));
+    const literal = (before, matched) => {
+        const base = LITERAL + 0x300 * (before >> (8 - BEFORE));
         let symbol = 1, match = matched;
         while (match >= 0 && symbol < 0x100) {
             const expected = (match >> 7) & 1, one = bit(base + ((1 + expected) << 8) + symbol);
@@ -72,26 +74,28 @@ export function unpack(bytes) {
     };
     let state = 0, last = [0, 0, 0, 0], at = 0;
     for (;;) {
-        const place = at & ((1 << pb) - 1), short = state < 7;
+        const short = state < 7;
         let size;
-        if (!bit(MATCH + 16 * state + place)) {
-            out[at] = literal(at, at > 0 ? out[at - 1] : 0, short ? -1 : out[at - last[0] - 1]);
+        if (!bit(MATCH + state)) {
+            out[at] = literal(at > 0 ? out[at - 1] : 0, short ? -1 : out[at - last[0] - 1]);
             at++;
             state = state < 4 ? 0 : state < 10 ? state - 3 : state - 6;
             continue;
         }
         if (!bit(REP + state)) {
-            size = length(LENGTH, place);
+            size = length(LENGTH);
             last = [distance(size), last[0], last[1], last[2]];
             state = short ? 7 : 10;
             if (last[0] === 0xffffffff) return out;
         } else {
             const which = !bit(REP_0 + state) ? 0 : !bit(REP_1 + state) ? 1 : 2 + bit(REP_2 + state);
-            const one = which === 0 && !bit(REP_0_LONG + 16 * state + place);
+            const one = which === 0 && !bit(REP_0_LONG + state);
             last = [last[which], ...last.filter((_, i) => i !== which)];
-            size = one ? 1 : length(REP_LENGTH, place);
+            size = one ? 1 : length(REP_LENGTH);
             state = one ? (short ? 9 : 11) : short ? 8 : 11;
         }
         for (; size > 0; size--, at++) out[at] = out[at - last[0] - 1];
     }
 }
+
+export const unpack = (bytes) => together(inflate(bytes));
