@@ -260,7 +260,7 @@ web:
 # Rooms that the page lacks but for these files and the options of their commands; and files of others that it lacks.
 WEB_LESS := code convert method model scene shader shadow system texture
 WEB_FROM := code/language method/choose method/estimate method/families method/interval method/limit method/method \
-    method/truth method/ways shader/camera shader/constants shader/decode shader/oblique shader/packing \
+    method/truth method/ways shader/camera shader/constants shader/decode shader/oblique shader/packing system/pages \
     shader/sample_rounding texture/device texture/metric texture/moved texture/recognise texture/sensor texture/sensor_buffer \
     texture/sensor_choice texture/sensor_find texture/sensor_fit texture/sensor_sample texture/sensor_surface texture/stereo texture/units \
     $(patsubst %,texture/cmd_texture/%,camera file lattice matrix products reading source)
