@@ -262,7 +262,7 @@ WEB_LESS := code convert method model scene shader shadow system texture
 WEB_FROM := code/language method/choose method/estimate method/families method/interval method/limit method/method \
     method/truth method/ways shader/camera shader/constants shader/decode shader/oblique shader/packing system/pages \
     shader/sample_rounding texture/device texture/metric texture/moved texture/recognise texture/sensor texture/sensor_buffer \
-    texture/sensor_choice texture/sensor_find texture/sensor_fit texture/sensor_sample texture/sensor_surface texture/stereo texture/units \
+    texture/sensor_choice texture/sensor_levels texture/sensor_find texture/sensor_fit texture/sensor_sample texture/sensor_surface texture/stereo texture/units \
     $(patsubst %,texture/cmd_texture/%,camera file lattice matrix products reading source)
 WEB_NOT := bias/drawn bias/cmd_bias/trial cli/words cli/questions solve/cmd_check/options solve/cmd_solve/preset world/cmd_world/options image/channel image/dds image/exr image/png image/ros image/tiff \
     camera/depth_range camera/figure_cost camera/profile_file camera/upscaler camera/cmd/depth_range camera/cmd/profile cli/junit cli/link cli/stop cli/cmd_help/completions cli/cmd_help/help cli/cmd_list/command cli/cmd_list/options draw/canvas draw/pixels \
