@@ -25,20 +25,24 @@ const shot *judge_shot(const probe_result *r, plan_shot kind, shot_format format
     return s != NULL && s->drawn ? s : NULL;
 }
 
-probe_finding *judge_say(probe_result *r, const char *key, const char *format, probe_certainty sure, const char *words,
+probe_finding *judge_say(probe_result *r, probe_key key, const char *format, probe_certainty sure, const char *words,
                          ...) {
     static probe_finding beyond; /* never: tests draw all there is */
     probe_finding *f = r->count < PROBE_FINDINGS_MAX ? &r->finding[r->count++] : &beyond;
     va_list arguments;
-    *f = (probe_finding){.key = key, .format = format, .sure = sure, .value = (double)NAN};
+    *f = (probe_finding){.key = probe_key_name(key), .format = format, .sure = sure, .value = (double)NAN};
     va_start(arguments, words);
     vsnprintf(f->words, sizeof f->words, words, arguments);
     va_end(arguments);
     return f;
 }
 
-int judge_guesses(probe_result *r, const char *key, const char *format, const guess *all, size_t count,
-                  uint64_t cases) {
+void judge_words(guess *all, probe_key key, size_t first, size_t count) {
+    for (size_t i = 0; i < count; i++)
+        all[i] = (guess){probe_hypothesis(key, first + i), 0};
+}
+
+int judge_guesses(probe_result *r, probe_key key, const char *format, const guess *all, size_t count, uint64_t cases) {
     size_t best = 0, next = count, perfect = 0;
     for (size_t i = 0; i < count; i++) {
         perfect += all[i].hits == cases;
@@ -49,11 +53,11 @@ int judge_guesses(probe_result *r, const char *key, const char *format, const gu
         if (i != best && (next == count || all[i].hits > all[next].hits))
             next = i;
     const probe_certainty sure = cases == 0 || perfect == 0 ? PROBE_NO_ROW : perfect == 1 ? PROBE_SURE : PROBE_OPEN;
-    probe_finding *f = judge_say(r, key, format, sure, "%s%s", sure == PROBE_NO_ROW ? "nothing known; nearest: " : "",
-                                 all[best].words);
+    probe_finding *f =
+        judge_say(r, key, format, sure, "%s%s", sure == PROBE_NO_ROW ? PROBE_NEAREST : "", all[best].words);
     for (size_t i = best + 1; sure == PROBE_OPEN && i < count; i++)
         if (all[i].hits == cases)
-            append(f->words, sizeof f->words, "; or %s", all[i].words);
+            append(f->words, sizeof f->words, PROBE_OR "%s", all[i].words);
     f->cases = cases;
     f->hits = all[best].hits;
     f->next = next < count ? all[next].words : NULL;

@@ -3,7 +3,7 @@
 #ifndef PROBE_JUDGE_H
 #define PROBE_JUDGE_H
 
-#include "probe/probe.h"
+#include "probe/hypotheses.h"
 
 typedef struct guess {
     const char *words;
@@ -12,12 +12,15 @@ typedef struct guess {
 
 enum { JUDGE_NONE = -1 };
 
+/* So many hypotheses of a key from that one on, none of them hit yet. */
+void judge_words(guess *all, probe_key key, size_t first, size_t count);
+
 /* The finding of hypotheses that were counted over so many cases. Returns the place of the one that is sure, or
  * JUDGE_NONE. */
-int judge_guesses(probe_result *r, const char *key, const char *format, const guess *all, size_t count, uint64_t cases);
+int judge_guesses(probe_result *r, probe_key key, const char *format, const guess *all, size_t count, uint64_t cases);
 
 /* A finding that is no choice between hypotheses. */
-probe_finding *judge_say(probe_result *r, const char *key, const char *format, probe_certainty sure, const char *words,
+probe_finding *judge_say(probe_result *r, probe_key key, const char *format, probe_certainty sure, const char *words,
                          ...) __attribute__((format(printf, 5, 6)));
 
 /* Clip z from 0 to w of a vertex: of one from -w to w what translators to other APIs make of it in the vertex shader.

@@ -30,23 +30,13 @@ static bool is_flat(int tile) {
  * another one where a browser that draws by it turns triangles for the sake of OpenGL's last vertex. */
 typedef enum source { LARGEST, PIXEL, DIFFERENCES } source;
 
-#define N_OF(what) ", 2^n the power of two at or below " what
-#define DIFFERENT  "r = 2^(n-23)" N_OF("the anchor's depth and the others' differences from it")
-static const struct {
-    const char *words;
+static const struct { /* in the order of their words */
     source source;
     int factor; /* index of factors */
     int anchor; /* of DIFFERENCES: a vertex */
 } steps[] = {
-    {"r = 2^(n-23)" N_OF("the largest depth of the triangle"), LARGEST, 0, 0},
-    {"r = 2^(n-22)" N_OF("the largest depth of the triangle"), LARGEST, 1, 0},
-    {"r = 2^(n-24)" N_OF("the largest depth of the triangle"), LARGEST, 2, 0},
-    {"r = 2^(n-23)" N_OF("the depth of the pixel"), PIXEL, 0, 0},
-    {"r = 2^(n-22)" N_OF("the depth of the pixel"), PIXEL, 1, 0},
-    {"r = 2^(n-24)" N_OF("the depth of the pixel"), PIXEL, 2, 0},
-    {DIFFERENT, DIFFERENCES, 0, 1},
-    {DIFFERENT, DIFFERENCES, 0, 0},
-    {DIFFERENT, DIFFERENCES, 0, 2},
+    {LARGEST, 0, 0}, {LARGEST, 1, 0},     {LARGEST, 2, 0},     {PIXEL, 0, 0},       {PIXEL, 1, 0},
+    {PIXEL, 2, 0},   {DIFFERENCES, 0, 1}, {DIFFERENCES, 0, 0}, {DIFFERENCES, 0, 2},
 };
 enum { STEPS = sizeof steps / sizeof steps[0] };
 
@@ -73,8 +63,8 @@ static void judge_float(probe_result *r) {
     guess all[STEPS];
     if (without == NULL || with == NULL)
         return;
+    judge_words(all, KEY_BIAS, BIAS_REAL, STEPS);
     for (int g = 0; g < STEPS; g++) {
-        all[g] = (guess){steps[g].words, 0};
         for (int i = 0; i < PLAN_TILES * AROUND; i++) {
             const int tile = i / AROUND, pixel = pixel_of(tile, i % AROUND);
             const double before = (double)dp_float32(without->code[pixel]);
@@ -83,7 +73,7 @@ static void judge_float(probe_result *r) {
                 stepped(before, after, depth_of(with, tile, g, before), factors[steps[g].factor], is_flat(tile));
         }
     }
-    judge_guesses(r, "bias", "d32f", all, STEPS, (uint64_t)PLAN_TILES * AROUND);
+    judge_guesses(r, KEY_BIAS, "d32f", all, STEPS, (uint64_t)PLAN_TILES * AROUND);
 }
 
 /* ---- UNORM ------------------------------------------------------------------------------------------------------- */
@@ -94,14 +84,13 @@ static double code_step(const shot *without, const shot *with, int pixel) {
 
 /* Codes that were moved, within one: where they were before in their cell is not seen. */
 static int judge_unorm(probe_result *r, shot_format format) {
-    static const char *const words[FACTORS] = {"r = one code", "r = two codes", "r = half a code"};
     const shot *without = judge_shot(r, PLAN_UNBIASED, format), *with = judge_shot(r, PLAN_CONSTANT, format);
     guess all[FACTORS];
     uint64_t cases = 0;
     if (without == NULL || with == NULL)
         return JUDGE_NONE;
+    judge_words(all, KEY_BIAS, 0, FACTORS);
     for (int g = 0; g < FACTORS; g++) {
-        all[g] = (guess){words[g], 0};
         cases = 0;
         for (int i = 0; i < PLAN_TILES * AROUND; i++) {
             const int pixel = pixel_of(i / AROUND, i % AROUND);
@@ -111,16 +100,17 @@ static int judge_unorm(probe_result *r, shot_format format) {
             all[g].hits += fabs(code_step(without, with, pixel) - factors[g] * PLAN_BIAS) <= 1.0;
         }
     }
-    return judge_guesses(r, "bias", probe_format_name(format), all, FACTORS, cases);
+    return judge_guesses(r, KEY_BIAS, probe_format_name(format), all, FACTORS, cases);
 }
 
 /* Tiles lie a quarter above a code: half a step more carries them over the next tie. */
 static void judge_fraction(probe_result *r, int factor) {
     const shot *without = judge_shot(r, PLAN_UNBIASED, SHOT_D16), *with = judge_shot(r, PLAN_FRACTION, SHOT_D16);
-    guess all[2] = {{"fractions of a constant count", 0}, {"fractions of a constant are cut", 0}};
+    guess all[2];
     uint64_t cases = 0;
     if (without == NULL || with == NULL || factor == JUDGE_NONE)
         return;
+    judge_words(all, KEY_FRACTION, 0, 2);
     for (int i = 0; i < PLAN_TILES * AROUND; i++) {
         if (!is_flat(i / AROUND))
             continue;
@@ -129,19 +119,19 @@ static void judge_fraction(probe_result *r, int factor) {
         all[0].hits += step == floor(0.75 + factors[factor] * (PLAN_BIAS + 0.5));
         all[1].hits += step == floor(0.75 + factors[factor] * PLAN_BIAS);
     }
-    judge_guesses(r, "fraction", "d16", all, 2, cases);
+    judge_guesses(r, KEY_FRACTION, "d16", all, 2, cases);
 }
 
 /* ---- Slope ------------------------------------------------------------------------------------------------------- */
 
 static void judge_slope(probe_result *r) {
     const shot *without = judge_shot(r, PLAN_UNBIASED, SHOT_D32F), *with = judge_shot(r, PLAN_SLOPED, SHOT_D32F);
-    guess all[3] = {
-        {"m = max(|dz/dx|, |dz/dy|)", 0}, {"m = sqrt((dz/dx)^2 + (dz/dy)^2)", 0}, {"m = |dz/dx| + |dz/dy|", 0}};
+    guess all[3];
     const double error = 0x1p-20; /* of a step of some 2^-6: a few roundings of slopes and sums in binary32 */
     uint64_t cases = 0;
     if (without == NULL || with == NULL)
         return;
+    judge_words(all, KEY_SLOPE, 0, 3);
     for (int i = 0; i < PLAN_TILES * AROUND; i++) {
         const int pixel = pixel_of(i / AROUND, i % AROUND);
         const plan_tile t = plan_tile_of(SHOT_D32F, i / AROUND);
@@ -154,7 +144,7 @@ static void judge_slope(probe_result *r) {
         for (int g = 0; g < 3; g++)
             all[g].hits += fabs(step - m[g]) <= error;
     }
-    judge_guesses(r, "slope", NULL, all, 3, cases);
+    judge_guesses(r, KEY_SLOPE, NULL, all, 3, cases);
 }
 
 void judge_bias(probe_result *r) {

@@ -27,12 +27,12 @@ static void judge_stored(probe_result *r, shot_format format) {
     const uint64_t hits = real || !whole ? same : s->passed <= s->count ? s->passed : 0;
     const bool all = real || (whole && (hits == s->count || (hits > 0 && !r->machine.counts)));
     probe_finding *f =
-        judge_say(r, "stored", probe_format_name(real ? SHOT_D32F : format), all ? PROBE_SURE : PROBE_NO_ROW, "%s: %s",
-                  r->machine.device[r->machine.chosen].format[format],
-                  real                 ? "every bit of binary32"
-                  : all                ? "codes of that many bits, nothing finer"
-                  : whole && hits == 0 ? "finer than its codes: depths of one code are distinguished"
-                                       : "neither its codes nor finer ones throughout");
+        judge_say(r, KEY_STORED, probe_format_name(real ? SHOT_D32F : format), all ? PROBE_SURE : PROBE_NO_ROW,
+                  "%s: %s", r->machine.device[r->machine.chosen].format[format],
+                  probe_hypothesis(KEY_STORED, real                 ? 0
+                                               : all                ? 1
+                                               : whole && hits == 0 ? 2
+                                                                    : 3));
     f->cases = s->count;
     f->hits = hits;
 }
@@ -42,15 +42,6 @@ static void judge_stored(probe_result *r, shot_format format) {
 /* The conversions that rows of core/arith.c have, then others. The only tie, d = 1/2, goes to 2^(N-1), which is both up
  * and even. */
 enum { EXACT, PRODUCT_EVEN, PRODUCT_ZERO, SIXTEENTHS, EXACT_ZERO, PRODUCT_HALF, CONVERSIONS };
-
-static const char *const conversion_words[CONVERSIONS] = {
-    [EXACT] = "the exact d (2^N - 1), to nearest",
-    [PRODUCT_EVEN] = "the binary32 product d (2^N - 1), to nearest even",
-    [PRODUCT_ZERO] = "the binary32 product d (2^N - 1), truncated",
-    [SIXTEENTHS] = "2^N d less d, both cut to sixteenths",
-    [EXACT_ZERO] = "the exact d (2^N - 1), truncated",
-    [PRODUCT_HALF] = "the binary32 product d (2^N - 1) plus 1/2, truncated",
-};
 
 static uint32_t converted(const dp_format *format, int conversion, float d) {
     const float product = d * (float)format->code_max, moved = product + 0.5F;
@@ -79,13 +70,13 @@ static unsigned judge_rounding(probe_result *r, shot_format format) {
     unsigned perfect = 0;
     if (s == NULL || dp_format_parse(probe_format_name(format), f) != 1)
         return (1U << CONVERSIONS) - 1U;
+    judge_words(all, KEY_ROUNDING, 0, CONVERSIONS);
     for (int c = 0; c < CONVERSIONS; c++) {
-        all[c] = (guess){conversion_words[c], 0};
         for (uint32_t i = 0; i < s->count; i++)
             all[c].hits += converted(&f[0], c, judge_clip(s, s->vertex[i])) == s->code[i];
         perfect |= all[c].hits == s->count ? 1U << c : 0U;
     }
-    judge_guesses(r, "rounding", probe_format_name(format), all, CONVERSIONS, s->count);
+    judge_guesses(r, KEY_ROUNDING, probe_format_name(format), all, CONVERSIONS, s->count);
     return perfect;
 }
 
@@ -104,35 +95,29 @@ static float window(const shot *s, int division, float z, float w) {
 
 static int judge_division(probe_result *r) {
     const shot *s = judge_shot(r, PLAN_DIVISION, SHOT_D32F);
-    static const char *const words[2][DIVISIONS] = {
-        {"clip z / w, rounded once", "clip z times the rounded 1 / w", "clip z times NVIDIA's 1 / w"},
-        {"(clip z + w)/2 / w, each rounded", "(clip z + w)/2 times the rounded 1 / w",
-         "(clip z + w)/2 times NVIDIA's 1 / w", "clip z / w, rounded once, then times 1/2, plus 1/2",
-         "clip z times the rounded 1 / w, then times 1/2, plus 1/2",
-         "clip z times NVIDIA's 1 / w, then times 1/2, plus 1/2"}};
     guess all[DIVISIONS];
     if (s == NULL)
         return JUDGE_NONE;
     const int count = s->ndc_signed ? DIVISIONS : KINDS;
-    for (int d = 0; d < count; d++) {
-        all[d] = (guess){words[s->ndc_signed][d], 0};
+    judge_words(all, KEY_DIVISION, s->ndc_signed ? DIVISION_SIGNED : 0, (size_t)count);
+    for (int d = 0; d < count; d++)
         for (uint32_t i = 0; i < s->count; i++)
             all[d].hits += dp_bits32(window(s, d, s->vertex[i][2], s->vertex[i][3])) == s->code[i];
-    }
-    return judge_guesses(r, "division", NULL, all, (size_t)count, s->count);
+    return judge_guesses(r, KEY_DIVISION, NULL, all, (size_t)count, s->count);
 }
 
 static int judge_projection(probe_result *r, int division) {
     const shot *s = judge_shot(r, PLAN_PROJECTION, SHOT_D32F);
-    guess all[2] = {{"A z, then + B, each rounded", 0}, {"A z + B fused, rounded once", 0}};
+    guess all[2];
     if (s == NULL || division == JUDGE_NONE)
         return JUDGE_NONE;
+    judge_words(all, KEY_PROJECTION, 0, 2);
     for (uint32_t i = 0; i < s->count; i++) {
         const float z = s->vertex[i][2], w = s->vertex[i][3], product = s->a * z;
         all[0].hits += dp_bits32(window(s, division, product + s->b, w)) == s->code[i];
         all[1].hits += dp_bits32(window(s, division, fmaf(s->a, z, s->b), w)) == s->code[i];
     }
-    return judge_guesses(r, "projection", NULL, all, 2, s->count);
+    return judge_guesses(r, KEY_PROJECTION, NULL, all, 2, s->count);
 }
 
 /* ---- Planes ------------------------------------------------------------------------------------------------------ */
@@ -143,14 +128,12 @@ static bool is_drawn(const shot *s, uint32_t i) {
 
 static void judge_planes(probe_result *r) {
     const shot *s = judge_shot(r, PLAN_PLANES, SHOT_D32F);
-    guess clip[] = {{"drawn where 0 <= z <= w, exactly", 0},
-                    {"drawn where 0 < z <= w", 0},
-                    {"drawn where 0 <= z < w", 0},
-                    {"drawn everywhere, clamped", 0}};
-    guess tiny[] = {{"kept", 0}, {"flushed to zero", 0}, {"not drawn", 0}};
+    guess clip[4], tiny[3];
     uint64_t normal = 0, subnormal = 0;
     if (s == NULL)
         return;
+    judge_words(clip, KEY_CLIPPING, 0, 4);
+    judge_words(tiny, KEY_SUBNORMAL, 0, 3);
     for (uint32_t i = 0; i < s->count; i++) {
         const float z = s->vertex[i][2], w = s->vertex[i][3];
         if (z > 0.0F && z < 0x1p-126F) {
@@ -166,8 +149,8 @@ static void judge_planes(probe_result *r) {
         clip[2].hits += is_drawn(s, i) == (0.0F <= z && z < w);
         clip[3].hits += is_drawn(s, i);
     }
-    judge_guesses(r, "clipping", NULL, clip, sizeof clip / sizeof clip[0], normal);
-    judge_guesses(r, "subnormal", NULL, tiny, sizeof tiny / sizeof tiny[0], subnormal);
+    judge_guesses(r, KEY_CLIPPING, NULL, clip, 4, normal);
+    judge_guesses(r, KEY_SUBNORMAL, NULL, tiny, 3, subnormal);
 }
 
 /* ---- Two pipelines, and functions of the language ---------------------------------------------------------------- */
@@ -177,14 +160,15 @@ static void judge_invariance(probe_result *r) {
     if (s == NULL)
         return;
     const bool same = s->passed == s->count;
-    probe_finding *f = judge_say(r, "invariance", NULL,
-                                 same                ? PROBE_SURE
-                                 : r->machine.counts ? PROBE_NO_ROW
-                                                     : PROBE_OPEN,
+    const bool counts = r->machine.counts;
+    probe_finding *f = judge_say(r, KEY_INVARIANCE, NULL,
+                                 same     ? PROBE_SURE
+                                 : counts ? PROBE_NO_ROW
+                                          : PROBE_OPEN,
                                  "%s",
-                                 same                ? "two pipelines of one expression store the same depths"
-                                 : r->machine.counts ? "two pipelines of one expression store other depths"
-                                                     : "the device does not count how many depths are the same");
+                                 probe_hypothesis(KEY_INVARIANCE, same     ? 0
+                                                                  : counts ? 1
+                                                                           : 2));
     f->cases = s->count;
     f->hits = s->passed;
 }
@@ -229,25 +213,24 @@ static bool is_any(const float *v) {
 static void judge_functions(probe_result *r) {
     static const struct {
         plan_shot shot;
-        const char *key, *words, *unit;
+        probe_key key;
+        size_t words;
         double (*truth)(const float *);
         bool (*taken)(const float *);
         double scale;
-        bool absolute;
     } all[] = {
-        {PLAN_LOG2, "log2", "x in [1, 2], absolute; Vulkan allows 2^-21 = 4.8e-07", "", log2_of, is_small,
-         (double)PLAN_LOG2_SCALE, true},
-        {PLAN_LOG2, "log2", "x in [2, 2^64]; Vulkan allows 3 ulp", "ulp", log2_of, is_large, (double)PLAN_LOG2_SCALE,
-         false},
-        {PLAN_QUOTIENT, "quotient", "x / y in a shader; Vulkan allows 2.5 ulp", "ulp", quotient_of, is_any, 1.0, false},
+        {PLAN_LOG2, KEY_LOG2, 0, log2_of, is_small, (double)PLAN_LOG2_SCALE},
+        {PLAN_LOG2, KEY_LOG2, 1, log2_of, is_large, (double)PLAN_LOG2_SCALE},
+        {PLAN_QUOTIENT, KEY_QUOTIENT, 0, quotient_of, is_any, 1.0},
     };
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
         const shot *s = judge_shot(r, all[i].shot, SHOT_D32F);
         if (s == NULL)
             continue;
-        probe_finding *f = judge_say(r, all[i].key, NULL, PROBE_MEASURED, "%s", all[i].words);
-        f->value = worst(s, all[i].truth, all[i].scale, all[i].taken, all[i].absolute, &f->cases);
-        f->unit = all[i].unit;
+        probe_finding *f =
+            judge_say(r, all[i].key, NULL, PROBE_MEASURED, "%s", probe_hypothesis(all[i].key, all[i].words));
+        f->unit = probe_unit(all[i].key, all[i].words);
+        f->value = worst(s, all[i].truth, all[i].scale, all[i].taken, f->unit[0] == '\0', &f->cases);
     }
 }
 

@@ -20,20 +20,13 @@ enum {
  */
 static const double shift_error = 0x1p-13;
 
-/* "unsnapped" first, then the grids of 4 bits and more. */
-static const char *const plane_words[GRIDS] = {
-    "unsnapped vertices",      "vertices on 1/16 pixel",  "vertices on 1/32 pixel",  "vertices on 1/64 pixel",
-    "vertices on 1/128 pixel", "vertices on 1/256 pixel", "vertices on 1/512 pixel", "vertices on 1/1024 pixel"};
-static const char *const coverage_words[GRIDS] = {
-    "unsnapped edges",      "edges on 1/16 pixel",  "edges on 1/32 pixel",  "edges on 1/64 pixel",
-    "edges on 1/128 pixel", "edges on 1/256 pixel", "edges on 1/512 pixel", "edges on 1/1024 pixel"};
-
 static int middle_of(int tile) {
     const int half = PLAN_TILE / 2;
     return (tile / ACROSS * PLAN_TILE + half) * SHOT_SIZE + tile % ACROSS * PLAN_TILE + half;
 }
 
-/* Whether moving by `at` shows as moved by `seen`; halfway between two points of the grid either will do. */
+/* Whether moving by `at` shows as moved by `seen`, where nothing is snapped, or on the grids of 4 bits and more;
+ * halfway between two points of the grid either will do. */
 static bool moved(int grid, double at, double seen) {
     if (grid == 0)
         return fabs(seen - at) <= shift_error;
@@ -47,14 +40,14 @@ static void judge_plane(probe_result *r) {
     guess all[GRIDS];
     if (s == NULL)
         return;
+    judge_words(all, KEY_PLANE, 0, GRIDS);
     for (int g = 0; g < GRIDS; g++) {
-        all[g] = (guess){plane_words[g], 0};
         for (int i = 0; i < PLAN_TILES; i++) {
             const double depth = (double)dp_float32(s->code[middle_of(i)]);
             all[g].hits += moved(g, (double)i / PLAN_STEPS, (0.5 - depth) / (double)PLAN_STEEP);
         }
     }
-    judge_guesses(r, "plane", NULL, all, GRIDS, PLAN_TILES);
+    judge_guesses(r, KEY_PLANE, NULL, all, GRIDS, PLAN_TILES);
 }
 
 /* An edge covers the centre to its left once it is snapped to the right of it. */
@@ -63,8 +56,8 @@ static void judge_coverage(probe_result *r) {
     guess all[GRIDS];
     if (s == NULL)
         return;
+    judge_words(all, KEY_COVERAGE, 0, GRIDS);
     for (int g = 0; g < GRIDS; g++) {
-        all[g] = (guess){coverage_words[g], 0};
         for (int i = 0; i < PLAN_TILES; i++) {
             const double at = plan_edge(i);
             const double half = g == 0 ? 0.0 : ldexp(0.5, -(BITS_LEAST + g - 1));
@@ -72,7 +65,7 @@ static void judge_coverage(probe_result *r) {
             all[g].hits += at == half || covered == (at > half);
         }
     }
-    judge_guesses(r, "coverage", NULL, all, GRIDS, PLAN_TILES);
+    judge_guesses(r, KEY_COVERAGE, NULL, all, GRIDS, PLAN_TILES);
 }
 
 /* ---- The rows ---------------------------------------------------------------------------------------------------- */
@@ -126,7 +119,7 @@ static const char *judge_rows(probe_result *r) {
                 all[count++] = (guess){raster_get(i)->name, hits_of(i, s)};
         if (s == NULL)
             continue;
-        const int sure = judge_guesses(r, "rasterizer", probe_format_name((shot_format)f), all, count, SHOT_PIXELS);
+        const int sure = judge_guesses(r, KEY_RASTERIZER, probe_format_name((shot_format)f), all, count, SHOT_PIXELS);
         const char *here = sure == JUDGE_NONE ? NULL : all[sure].words;
         one = one && here != NULL && (found == NULL || found == here);
         found = here;
@@ -135,17 +128,17 @@ static const char *judge_rows(probe_result *r) {
 }
 
 static void judge_prediction(probe_result *r, const char *row) {
-    size_t index = 0;
+    size_t index = 0, drawing = 0;
     while (raster_get(index) != NULL && raster_get(index)->name != row)
-        index++;
+        drawing += raster_get(index++)->model != NULL;
     for (int f = 0; f < SHOT_FORMATS; f++) {
         const shot *s = judge_shot(r, PLAN_PREDICTED, (shot_format)f);
         if (s == NULL)
             continue;
         const uint64_t hits = hits_of(index, s);
-        probe_finding *found = judge_say(r, "prediction", probe_format_name((shot_format)f),
-                                         hits == SHOT_PIXELS ? PROBE_SURE : PROBE_NO_ROW,
-                                         "another random scene as row %s predicts it", row);
+        probe_finding *found =
+            judge_say(r, KEY_PREDICTION, probe_format_name((shot_format)f),
+                      hits == SHOT_PIXELS ? PROBE_SURE : PROBE_NO_ROW, "%s", probe_hypothesis(KEY_PREDICTION, drawing));
         found->cases = SHOT_PIXELS;
         found->hits = hits;
         if (hits != SHOT_PIXELS)

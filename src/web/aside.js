@@ -19,7 +19,10 @@ export function serve(measure) {
     };
 }
 
-const LIMIT_MS = 10000, PATIENCE_MS = 60, REMEMBERED = 24;
+// A driver may take long, so that a GPU has the time that the program gives it.
+const LIMITS_S = { profile: 60, judge: 60 };
+export const limitOf = ([verb]) => LIMITS_S[verb] ?? 10;
+const PATIENCE_MS = 60, REMEMBERED = 24;
 const keyOf = (line) => line.join("\0");
 const refusal = (text) => ({ status: 2, out: "", err: `depthprec: ${text}; the program itself has no limit` });
 
@@ -83,7 +86,8 @@ export function createAside(module, { here, onSaid, onRun }) {
         if (one === undefined) return;
         now = { ...one, begun: performance.now(), timers: [] };
         if (!works) return fail();
-        now.timers.push(setTimeout(() => refuse(`takes longer than ${LIMIT_MS / 1000} s here`), LIMIT_MS));
+        const limit = limitOf(one.line);
+        now.timers.push(setTimeout(() => refuse(`takes longer than ${limit} s here`), limit * 1000));
         try {
             if (worker === null) make();
             worker.postMessage({ module, line: one.line, most: one.most, file: one.file });

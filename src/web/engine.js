@@ -126,9 +126,10 @@ export async function load(from, host = () => ({})) {
         measure: (text, size, bold) => text.length * size * (bold ? 0.65 : 0.58),
 
         // The command's exit status and what it wrote, up to so many bytes; `left` are the others. Where asked for, the cells
-        // of tables are parted, see sheet.js. What begins with "seen" is a frame of a picture by the GPU, with "ways" what else would do: see picture.c.
+        // of tables are parted, see sheet.js. What begins with "seen" is a frame of a picture by the GPU, with "ways" what else
+        // would do: see picture.c; with "profile" what a GPU is: see profile.c.
         run: ([first, ...others], most, cells) =>
-            first === "seen" || first === "ways" ? call(first, others, most) : call("run", [first, ...others], most, cells),
+            ["seen", "ways", "profile"].includes(first) ? call(first, others, most) : call("run", [first, ...others], most, cells),
 
         // The program reads the words: { status, err, verb, operands, options: [{ name, value }] }.
         parse(words) {

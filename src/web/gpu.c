@@ -21,6 +21,8 @@ enum { MOST = 1 << 20 };
 /** Does what is asked. @return 0; else `text` says why not */
 PAGE_IMPORT("gpu") int page_gpu(gpu_request *r);
 
+const char *const gpu_formats[SHOT_FORMATS] = {"DEPTH_COMPONENT16", "DEPTH_COMPONENT24", "DEPTH_COMPONENT32F"};
+
 bool gpu_ask(gpu_request *r, char text[GPU_TEXT_SIZE]) {
     r->text = text;
     snprintf(text, GPU_TEXT_SIZE, "the page has no GPU here");
@@ -42,7 +44,7 @@ static bool describe(shot_machine *m, char *text) {
     snprintf(d->name, sizeof d->name, "%.*s", (int)length, text);
     snprintf(d->driver, sizeof d->driver, "%s", text + length + 1);
     for (int f = 0; f < SHOT_FORMATS; f++)
-        snprintf(d->format[f], sizeof d->format[f], "DEPTH_COMPONENT%s", (const char *[]){"16", "24", "32F"}[f]);
+        snprintf(d->format[f], sizeof d->format[f], "%s", gpu_formats[f]);
     m->count = 1;
     m->counts = true;
     return true;

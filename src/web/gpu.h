@@ -6,6 +6,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "probe/shot.h"
+
 enum { GPU_TEXT_SIZE = 512 };
 
 typedef enum gpu_what { GPU_OPEN = 0, GPU_DRAW, GPU_COMPILE, GPU_VALUES, GPU_PICTURE } gpu_what;
@@ -24,6 +26,9 @@ typedef struct gpu_request {
     uint32_t *out;           /**< what was stored, what comes out of a function, who is seen */
     uint32_t passed;
 } gpu_request;
+
+/** What WebGL calls the formats of a shot. */
+extern const char *const gpu_formats[SHOT_FORMATS];
 
 /** Does what is asked. @return false with a sentence in `text` */
 bool gpu_ask(gpu_request *r, char text[GPU_TEXT_SIZE]);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page: it begins, and listens. It computes no number that is shown: each comes out of the module, see engine.js.
 import { createAside, inWorker, serve } from "./aside.js";
-import { commands, join, LONGEST, split, written } from "./command.js";
+import { commands, join, LONGEST, split, toFragment, written } from "./command.js";
 import { load } from "./engine.js";
 import { numberOfStep } from "./figure.js";
 import { ask, buildSetup, explain, fill, names, OTHER_WAY, take } from "./form.js";
 import { gpu } from "./gpu.js";
-import { createGpuPanel, profileText } from "./gpu_panel.js";
+import { createGpuPanel, profile } from "./gpu_panel.js";
 import { createImagePanel } from "./image_panel.js";
 import { axesNow, crossTo, DARK, narrow, observeWidths, save, TYPE } from "./outputs.js";
 import { createPicture } from "./picture.js";
@@ -44,7 +44,7 @@ function listen() {
                 $("#copied").textContent = "The browser does not let this page copy.";
             }
         });
-    const address = () => `${location.href.split("#")[0]}#${link()}`;
+    const addressOf = (fragment) => `${location.href.split("#")[0]}#${fragment}`, address = () => addressOf(link());
     copies("#copy", address);
     $("#share").hidden = !navigator.share;
     $("#share").addEventListener("click", () => navigator.share({ title: document.title, url: address() }).catch(() => {}));
@@ -58,8 +58,9 @@ function listen() {
         $(`#${name}`).addEventListener("input", ({ target }) => ask(name, page.engine.lengthAt(name, Number(target.value), unitOf(state.setups[0]) !== "")));
         $(`#${name}-text`).addEventListener("input", ({ target }) => target.value.trim() && ask(name, target.value.replaceAll(" ", "")));
     }
-    copies("#copy-profile", profileText);
-    $("#save-profile").addEventListener("click", () => save("depthprec-gpu.json", profileText(), TYPE.json));
+    copies("#copy-profile", () => profile.json);
+    $("#save-profile").addEventListener("click", () => save("depthprec-gpu.json", profile.json, TYPE.json));
+    copies("#link-profile", () => addressOf(toFragment([["page", `gpu=${profile.brief}`]]).replaceAll(/['()]/g, (c) => `%${c.charCodeAt(0).toString(16)}`)));
     copies("#copy-commands", () => $("#link").textContent);
     for (const panel of $$("details[data-panel]"))
         panel.addEventListener("toggle", () => {
@@ -157,7 +158,7 @@ async function begin() {
     want();
     $("#marks").addEventListener("change", () => page.picture.marks($("#marks").checked));
     page.gpuPanel = createGpuPanel({
-        $, aside: page.aside, frame: page.picture.frame, setup: () => state.setups[0],
+        $, make, aside: page.aside, frame: page.picture.frame, shared: () => page.shared, setup: () => state.setups[0], force: () => page.facts[0],
         pictured: () => pictureLines()[0],
         judged: (text) => ["judge", ...commandOf("judge", state.setups[0]).slice(1), "--", text],
         take,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // When what is asked of the program, and when it is shown.
+import { limitOf } from "./aside.js";
 import { join } from "./command.js";
 import { fitQuestions, showWorld } from "./form.js";
 import { axesNow, axesOf, lineOf, outputsOf, outputsOver, showForce, showHeadlines, showOutput, showOver, showSetup, showWays } from "./outputs.js";
@@ -119,7 +120,7 @@ export function showRun(line) {
     const begun = performance.now();
     naming = setInterval(() => {
         $("#busy").hidden = false;
-        $("#busy span").textContent = `${line[0]} takes ${Math.round((performance.now() - begun) / 1000)} s, of 10 at most.`;
+        $("#busy span").textContent = `${line[0]} takes ${Math.round((performance.now() - begun) / 1000)} s, of ${limitOf(line)} at most.`;
     }, NAMED_MS);
 }
 
@@ -151,5 +152,6 @@ export function showPicture() {
     showForce(facts);
     showHeadlines(facts);
     page.gpuPanel?.draw();
+    page.gpuPanel?.follow();
     page.imagePanel?.follow();
 }

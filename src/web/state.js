@@ -52,6 +52,7 @@ export const SECOND = `table -n 0.1 -f 1000 -F fp32 -m reversed --viewport ${VIE
 export const page = {
     engine: null, aside: null, picture: null, gpuPanel: null, imagePanel: null, widths: null,
     linked: true, opened: false, printing: false, // what is shown came by the address; the link that the page was opened at is shown
+    shared: "", // the profile of somebody’s GPU, by the address
     pressed: false, steady: null, before: null, held: "", crossing: "100", facts: [], // see outputs.js, what lies over a figure
     resting: null, // while something is dragged, a timer
 };
@@ -115,11 +116,11 @@ export function shown() {
 // What is seen beside the commands: gap and distance of the picture, as they were typed, the colours, and whether the
 // table is shut, which says the set-ups all the same.
 const LENGTH = /^\d[\d.e+-]*[a-z]{0,2}$/;
-const SEEN = { gap: LENGTH, distance: LENGTH, theme: /^(system|light|dark)$/, table: /^(open|shut)$/ };
-const SEEN_FIRST = { ...WORLD, theme: "system", table: "open" };
+const SEEN = { gap: LENGTH, distance: LENGTH, theme: /^(system|light|dark)$/, table: /^(open|shut)$/, gpu: /./ };
+const SEEN_FIRST = { ...WORLD, theme: "system", table: "open", gpu: "" };
 
 function seen() {
-    const now = { ...world, theme: document.documentElement.dataset.theme ?? "system", table: state.shown.has("table") ? "open" : "shut" };
+    const now = { ...world, theme: document.documentElement.dataset.theme ?? "system", table: state.shown.has("table") ? "open" : "shut", gpu: page.shared };
     return Object.entries(now).filter(([name, value]) => value !== SEEN_FIRST[name]).map((pair) => pair.join("="));
 }
 
@@ -136,8 +137,9 @@ function takeSeen(all) {
     return said;
 }
 
-function see({ gap, distance, theme, table }) {
+function see({ gap, distance, theme, table, gpu }) {
     Object.assign(world, { gap, distance });
+    page.shared = gpu;
     if (table === "shut") state.shown.delete("table");
     setTheme(theme);
 }
@@ -224,7 +226,13 @@ export async function set(all, byLink = false) {
     try {
         const lines = all();
         said = byLink ? takeSeen(lines) : null;
-        next = await understand(lines, byLink ? start(said) : state);
+        if (said?.gpu) {
+            trying = ["profile", said.gpu];
+            const known = await page.aside.ask(trying);
+            if (known.status !== 0) throw new Error(errorOf(known));
+        }
+        // A profile alone leaves all else as it is.
+        next = said?.gpu && lines.length === 0 ? null : await understand(lines, byLink ? start(said) : state);
     } catch (error) {
         if (mine !== asking) return true; // it is not the last one
         refuse(error);
@@ -236,7 +244,8 @@ export async function set(all, byLink = false) {
     page.before = byLink ? null : page.steady;
     Object.assign(state, next);
     refuse(null);
-    if (byLink) see(said);
+    if (next === null) page.shared = said.gpu;
+    else if (byLink) see(said);
     fill();
     update();
     return true;

@@ -475,7 +475,7 @@ TEST(test_guesses) {
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         const guess all[] = {{"one", rows[i].hits[0]}, {"two", rows[i].hits[1]}, {"three", rows[i].hits[2]}};
         r.count = 0;
-        assert_int_equal(judge_guesses(&r, "rounding", "d16", all, 3, rows[i].cases), rows[i].found);
+        assert_int_equal(judge_guesses(&r, KEY_ROUNDING, "d16", all, 3, rows[i].cases), rows[i].found);
         const probe_finding *f = find(&r, "rounding", "d16");
         assert_int_equal(f->sure, rows[i].sure);
         assert_string_equal(f->words, rows[i].words);
