@@ -2,7 +2,7 @@
 /*
  * The decisions about triangles, each against the same determinant in rationals (GMP): of numbers with all their bits,
  * where a point or a turn lies as near to none as rounding its coordinates leaves it; of the same with what is next to
- * nothing beside it; and of whole numbers, where it is none.
+ * nothing beside it; of whole numbers, where it is none; and in line with two corners, where rounding alone makes one.
  */
 #include <gmp.h>
 
@@ -100,10 +100,10 @@ static int true_turn(const double a[3][3], const double b[3][3], int sign, const
 
 /* ---- Points ------------------------------------------------------------------------------------------------------ */
 
-enum { ROUNDED, WHOLE, TINY, KINDS };
+enum { ROUNDED, WHOLE, TINY, LINED, KINDS };
 
 static double number(rng *r, int kind) {
-    return kind == ROUNDED ? rng_uniform(r, -1, 1) : (double)rng_below(r, 17) - 8;
+    return kind == ROUNDED || kind == LINED ? rng_uniform(r, -1, 1) : (double)rng_below(r, 17) - 8;
 }
 
 static void any_point(rng *r, int kind, double p[3]) {
@@ -128,6 +128,16 @@ static double tiny(rng *r) {
     return rng_below(r, 2) == 0 ? size : -size;
 }
 
+/* In the plane of any triangle with two of these corners: on the line through them, a sixteenth of the way or more. */
+static void line_of_two(rng *r, double a[3], double b[3], double p[3]) {
+    const double share = (double)rng_below(r, 65) / 16 - 2;
+    for (int k = 0; k < 3; k++) {
+        a[k] = ldexp((double)rng_below(r, 1 << 24), -20);
+        b[k] = ldexp((double)rng_below(r, 1 << 24), -20);
+        p[k] = a[k] + share * (b[k] - a[k]);
+    }
+}
+
 /* ---- Decisions --------------------------------------------------------------------------------------------------- */
 
 TEST(sides_of_planes) {
@@ -145,6 +155,10 @@ TEST(sides_of_planes) {
         point_between(of[0], of[1], of[2], u, v, p);
         if (kind == TINY)
             of[0][moved] = tiny(&r);
+        if (kind == LINED) {
+            const size_t corner = (size_t)rng_below(&r, 3);
+            line_of_two(&r, of[corner], of[(corner + 1) % 3], p);
+        }
         const int is = true_side((const double(*)[3])of, p),
                   got = exact_above((exact_triangle){of[0], of[1], of[2]}, p);
         seen[kind][is + 1]++;
@@ -152,7 +166,7 @@ TEST(sides_of_planes) {
     }
     for (int k = 0; k < 3; k++) /* of rounded points few are in the plane, of whole ones all */
         assert_true((k == 1 || seen[ROUNDED][k] > 200) && seen[TINY][k] > 20);
-    assert_true(seen[WHOLE][1] > 200);
+    assert_true(seen[WHOLE][1] > 200 && seen[LINED][1] > 200);
     tally_end(&t);
 }
 
@@ -175,7 +189,7 @@ TEST(turns) {
     tally t = {.name = "turns"};
     int seen[KINDS][3] = {{0}};
     for (uint64_t n = test_cases(2000, 20000, 1000000); n > 0; n--) {
-        const int kind = (int)rng_below(&r, KINDS), sign = rng_below(&r, 2) == 0 ? 1 : -1;
+        const int kind = (int)rng_below(&r, LINED), sign = rng_below(&r, 2) == 0 ? 1 : -1;
         double a[3][3], b[3][3], p[3][3], eye[3];
         any_triangle(&r, kind, a);
         any_triangle(&r, kind, b);
