@@ -16,7 +16,6 @@ layers.sh                    | objdump   | 0 | 1
 needs.sh                     | jq        | 1 | 1
 needs.sh                     | xmllint   | 1 | 1
 needs.sh                     | depthprec | 0 | 2
-install.sh                   | readelf nm | 0 | 4
 headers.sh                   | cc        | 1 | 10
 examples.sh                  | depthprec | 0 | 31
 readme.sh                    | depthprec | 0 | 6
@@ -30,8 +29,8 @@ judge_code.sh                | depthprec | 0 | 2
 gappa.sh                     | gappa     | 0 | all
 cli.sh tests/cli/help.txt    | depthprec | 0 | all
 cli.sh tests/cli/solve.txt   | jq        | 1 | 1
-cli.sh tests/cli/methods.txt | awk       | 1 | all
-cli.sh tests/cli/methods.txt | diff      | 0 | 1
+cli.sh tests/cli/help.txt    | awk       | 1 | all
+cli.sh tests/cli/help.txt    | diff      | 0 | 1
 '
 [ -z "${DEPTHPREC_FULL-}" ] || cases="$cases
 fields.sh                    | jq        | 1 | all
@@ -47,6 +46,7 @@ plots.sh                     | depthprec | 1 | 110
 python.sh                    | depthprec | 0 | 2
 same.sh                      | depthprec | 1 | 1
 cli.sh tests/cli/help.txt    | depthprec | 1 | all
+install.sh                   | readelf nm | 0 | 4
 install.sh                   | readelf   | 1 | 3
 install.sh                   | nm        | 1 | 1
 "
