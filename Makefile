@@ -258,17 +258,16 @@ web:
 	@$(MAKE) $(PARALLEL) $(B)/web/core.wasm $(B)/depthprec.html
 
 # Rooms that the page lacks but for these files and the options of their commands; and files of others that it lacks.
-WEB_LESS := code convert method model scene shader shadow system texture
-WEB_FROM := code/language method/choose method/estimate method/families method/interval method/limit method/method \
-    method/truth method/ways shader/camera shader/constants shader/decode shader/oblique shader/packing system/pages \
+WEB_LESS := convert method model scene shader shadow system texture
+WEB_FROM := method/bound method/bound_linearize method/choose method/encode method/estimate method/families method/interval method/limit \
+    method/linearize method/method method/steps method/term method/truth method/ways shader/camera shader/constants shader/decode shader/oblique shader/packing shader/position system/pages \
     shader/sample_rounding texture/device texture/metric texture/moved texture/recognise texture/sensor texture/sensor_buffer \
     texture/sensor_choice texture/sensor_levels texture/sensor_find texture/sensor_fit texture/sensor_sample texture/sensor_surface texture/stereo texture/units \
     $(patsubst %,texture/cmd_texture/%,camera file lattice matrix products reading source)
-WEB_NOT := bias/drawn bias/cmd_bias/trial cli/words cli/questions solve/cmd_check/options solve/cmd_solve/preset world/cmd_world/options image/channel image/dds image/exr image/png image/ros image/tiff \
-    camera/depth_range camera/figure_cost camera/profile_file camera/upscaler camera/cmd/depth_range camera/cmd/profile cli/junit cli/link cli/stop cli/cmd_help/completions cli/cmd_help/help cli/cmd_list/command cli/cmd_list/options draw/canvas draw/pixels \
+WEB_NOT := bias/drawn bias/cmd_bias/trial cli/words cli/questions solve/cmd_solve/preset world/cmd_world/options image/channel image/dds image/exr image/png image/ros image/tiff \
+    camera/depth_range camera/figure_cost camera/profile_file camera/upscaler camera/cmd/depth_range camera/cmd/profile cli/link cli/stop cli/cmd_help/completions cli/cmd_help/help cli/cmd_list/command cli/cmd_list/options draw/canvas draw/pixels \
     judge/given judge/listing judge/read_pairs judge/written judge/cmd_judge/shader probe/compile probe/opengl probe/probe probe/vulkan \
-    probe/vulkan_compute probe/vulkan_draw quantity/cmd/preset_run quantity/cmd_table/constants quantity/cmd_table/in_preset quantity/cmd_table/levels quantity/cmd_table/slices report/output_file report/terminal solve/camera \
-    solve/check solve/figure_needs solve/reader solve/requirement solve/setting solve/view solve/cmd_check/check_report solve/cmd_check/command \
+    probe/vulkan_compute probe/vulkan_draw quantity/cmd/preset_run quantity/cmd_table/constants quantity/cmd_table/in_preset quantity/cmd_table/levels quantity/cmd_table/slices report/output_file report/terminal solve/figure_needs \
     raster/resolve web/plain world/arithmetic world/figure world/cmd_world/command zfight/figure zfight/cmd_prepass/stored zfight/cmd_prepass/stored_options
 WEB_SOURCES := $(sort $(filter-out $(patsubst %,src/%.c,$(patsubst %,%/%,$(WEB_LESS)) $(WEB_NOT)),$(CORE) $(ROOMS) $(wildcard src/web/*.c)) \
     $(wildcard $(patsubst %,src/*/cmd_%/options.c,bias budget judge plot prepass probe solve table texture zfight)) $(patsubst %,src/%.c,$(WEB_FROM)))

@@ -5,6 +5,8 @@
  */
 #pragma clang diagnostic ignored "-Wunused-parameter"
 
+#include <gsl/gsl_chebyshev.h>
+#include <gsl/gsl_spline.h>
 #include <stdio.h>
 
 #include "bias/cmd_bias/trial.h"
@@ -30,8 +32,6 @@
 #include "shader/pack.h"
 #include "shadow/cmd_shadow/maps.h"
 #include "shadow/engine.h"
-#include "solve/check.h"
-#include "solve/cmd_check/check_report.h"
 #include "solve/cmd_solve/report.h"
 #include "solve/cmd_solve/request.h"
 #include "texture/cmd_texture/request.h"
@@ -65,7 +65,6 @@ static const option_place no_places[] = {{.table = NULL}};
 static const option_row no_rows[] = {{.name = NULL}};
 #define ABSENT_OPTIONS(of) const option_table of##_options = {.rows = no_rows};
 
-ABSENT_OPTIONS(code)
 ABSENT_OPTIONS(convert)
 ABSENT_OPTIONS(range)
 ABSENT_OPTIONS(scene)
@@ -86,8 +85,6 @@ static const option_row stored_rows[] = {ABSENT_OPTION("prepass-format"), ABSENT
 const option_table stored_options = {.rows = stored_rows};
 const option_use stored_uses[] = {ROWS(stored_rows), END};
 
-ABSENT_COMMAND(check)
-ABSENT_COMMAND(code)
 ABSENT(cmd_completions)
 ABSENT_COMMAND(convert)
 ABSENT(cmd_help)
@@ -178,8 +175,7 @@ ABSENT_TABLE(synthetic)
 
 /* Families of methods but interval, which figures are drawn by. */
 static const size_t none;
-const method_family_row linearize_family = {.method_count = &none}, encode_family = {.method_count = &none},
-                        worst_family = {.method_count = &none}, position_family = {.method_count = &none},
+const method_family_row worst_family = {.method_count = &none}, position_family = {.method_count = &none},
                         normal_family = {.method_count = &none};
 
 void method_start(void) {}
@@ -208,8 +204,6 @@ STUB(void, mine_close, (mine * m), )
 /* ---- What the figures of those commands call ----------------------------------------------------------------------
  */
 
-STUB(int, check_read, (const char *path, need_file *file), EXIT_USAGE)
-
 int judge_pairs_read(const char *path, judge_pairs *out, char error[PAIRS_ERROR_SIZE]) {
     snprintf(error, PAIRS_ERROR_SIZE, "the page reads no files");
     return -1;
@@ -218,13 +212,25 @@ int judge_pairs_read(const char *path, judge_pairs *out, char error[PAIRS_ERROR_
 STUB(int, shadow_maps_make, (const shadow_request *o, const dp_format *format, dp_mapping mapping, shadow_maps *out),
      absent(o->line))
 STUB(const bias_api *, shadow_asked_api, (const shadow_request *o, size_t index), NULL)
-STUB(void, need_release, (need_file * file), )
 STUB(int, scene_figure_begin, (scene * s, const scene_request *o), absent(o->line))
 STUB(int, scene_look, (scene * s, output *out), EXIT_USAGE)
 STUB(bool, scene_figure_take, (const scene *s, fights_asked *out, chart *c), false)
 STUB(int, scene_figure_height, (const chart *c, int width), width)
 STUB(void, scene_end, (scene * s), )
 STUB(bool, pixels_write_png, (FILE * out, const pixels *p, const notes *words), false)
+
+/* Splines and series of the GNU Scientific Library, which no language has and nothing here runs. */
+STUB(double, gsl_spline_eval, (const gsl_spline *s, double x, gsl_interp_accel *a), 0.0)
+STUB(gsl_spline *, gsl_spline_alloc, (const gsl_interp_type *type, size_t n), NULL)
+STUB(int, gsl_spline_init, (gsl_spline * s, const double x[], const double y[], size_t n), 1)
+STUB(void, gsl_spline_free, (gsl_spline * s), )
+STUB(gsl_interp_accel *, gsl_interp_accel_alloc, (void), NULL)
+STUB(void, gsl_interp_accel_free, (gsl_interp_accel * a), )
+STUB(double, gsl_cheb_eval, (const gsl_cheb_series *s, double x), 0.0)
+STUB(gsl_cheb_series *, gsl_cheb_alloc, (size_t n), NULL)
+STUB(int, gsl_cheb_init, (gsl_cheb_series * s, const gsl_function *f, double a, double b), 1)
+STUB(void, gsl_cheb_free, (gsl_cheb_series * s), )
+const gsl_interp_type *gsl_interp_cspline;
 
 /* ---- Names alone, where the program reads the profile of a GPU too --------------------------------------------- */
 
@@ -233,6 +239,9 @@ STUB(int, parse_arith, (asked_line * line, const option_row *row, const char *va
 STUB(int, parse_raster, (asked_line * line, const option_row *row, const char *value, void *group),
      parse_row(line, row, value, group))
 STUB(bool, profile_is_file, (const char *text), false)
+STUB(bool, profile_add,
+     (profile * to, const char *path, const char *key, char name[PROFILE_NAME_SIZE], char error[PROFILE_ERROR_SIZE]),
+     false)
 
 /* ---- Of commands that are not here ------------------------------------------------------------------------------- */
 

@@ -20,6 +20,18 @@ export function save(name, text, type) {
     setTimeout(() => URL.revokeObjectURL(anchor.href), 1000);
 }
 
+// The button says that its text is on the clipboard, or that the browser does not let it there.
+export async function copy(button, text) {
+    const name = button.dataset.name ??= button.textContent;
+    try {
+        await navigator.clipboard.writeText(text);
+        button.textContent = "Copied";
+    } catch {
+        button.textContent = "The browser does not let this page copy";
+    }
+    setTimeout(() => (button.textContent = name), 2000);
+}
+
 const RUN = { json: ["--json"], csv: ["--csv"] };
 export const TYPE = { json: "application/json", csv: "text/csv", svg: "image/svg+xml", png: "image/png" };
 
@@ -40,10 +52,11 @@ function outputOf(panel, index) {
         const saves = make("div", { class: "saves" });
         const one = make("div", { class: drawn ? "figure" : "text" }, make("h3", {}, `Set-up ${letter}`),
             make("p", { class: "answer" }), body, make("p", { class: "refused", role: "status" }), saves);
-        for (const kind of drawn ? ["svg", "png", "csv", "json"] : ["csv", "json"]) {
-            const name = kind.toUpperCase(), told = { "data-export": kind, "aria-label": `${name} of ${title}` };
+        for (const kind of drawn ? ["svg", "png", "csv", "json"] : verb === "code" ? ["copy", "json"] : ["csv", "json"]) {
+            const name = kind === "copy" ? "Copy" : kind.toUpperCase(), told = { "data-export": kind, "aria-label": `${name} of ${title}` };
             const button = make("button", { type: "button", ...told }, name);
             button.addEventListener("click", async () => {
+                if (kind === "copy") return copy(button, one.said.out);
                 const run = async () => (await page.aside.ask([...split(one.dataset.run), ...RUN[kind]])).out;
                 const what = kind === "svg" ? one.said.out : kind === "png" ? await png(one) : await run();
                 save(`depthprec-${verb}-${letter}.${kind}`, what, TYPE[kind]);

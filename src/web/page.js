@@ -8,7 +8,7 @@ import { ask, buildSetup, explain, fill, names, OTHER_WAY, take } from "./form.j
 import { gpu } from "./gpu.js";
 import { createGpuPanel, profile } from "./gpu_panel.js";
 import { createImagePanel } from "./image_panel.js";
-import { axesNow, crossTo, DARK, narrow, observeWidths, save, TYPE } from "./outputs.js";
+import { axesNow, copy, crossTo, DARK, narrow, observeWidths, save, TYPE } from "./outputs.js";
 import { createPicture } from "./picture.js";
 import { heard, later, onScreen, release, showKnown, showPicture, showRun, want } from "./schedule.js";
 import { unpack } from "./unpack.mjs";
@@ -35,15 +35,7 @@ function listen() {
         setTheme(SCHEMES[(SCHEMES.indexOf(document.documentElement.dataset.theme ?? "system") + 1) % 3]);
         later();
     });
-    const copies = (id, text) =>
-        $(id).addEventListener("click", async () => {
-            try {
-                await navigator.clipboard.writeText(text());
-                $("#copied").textContent = "Copied.";
-            } catch {
-                $("#copied").textContent = "The browser does not let this page copy.";
-            }
-        });
+    const copies = (id, text) => $(id).addEventListener("click", ({ target }) => copy(target, text()));
     const addressOf = (fragment) => `${location.href.split("#")[0]}#${fragment}`, address = () => addressOf(link());
     copies("#copy", address);
     $("#share").hidden = !navigator.share;
@@ -73,6 +65,7 @@ function listen() {
         form.addEventListener("input", (event) => {
             const asked = state.asked[form.dataset.asks], { option } = event.target.dataset;
             if (option === "for") asked.delete(asked.get("for"));
+            asked.delete("method");
             if (event.target.value.trim() === "") asked.delete(option);
             else asked.set(option, event.target.value.trim());
             later();
@@ -140,7 +133,8 @@ async function begin() {
     $("#cancel").addEventListener("click", () => page.aside.cancel());
     for (const verb of [...VERBS, "judge", "texture"]) takes[verb] = page.engine.takes(verb);
     $("#version").textContent = page.engine.version();
-    for (const name of names("api", "bias")) $("[data-option=api]").append(make("option", {}, name));
+    for (const [option, verb] of [["api", "bias"], ["language", "code"]])
+        for (const name of names(option, verb)) $(`[data-option=${option}]`).append(make("option", {}, name));
     page.widths = observeWidths();
     buildSetup(0);
     buildSetup(1);

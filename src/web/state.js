@@ -20,7 +20,7 @@ export function make(name, attributes = {}, ...children) {
 
 // ---- What there is ------------------------------------------------------------------------------------------------
 
-export const VERBS = ["table", "plot", "solve", "bias", "budget", "zfight", "prepass"];
+export const VERBS = ["table", "plot", "solve", "bias", "code", "budget", "zfight", "prepass"];
 export const FIGURES = {
     interval: "what is resolved", error: "error", distribution: "codes per metre", budget: "causes", share: "codes beyond", map: "which near and far", staircase: "why reversed floats",
 };
@@ -29,6 +29,7 @@ const LETTERS = { near: "-n", far: "-f", format: "-F", mapping: "-m" };
 const ASKED = {
     solve: ["for", "separation", "error", "at", "range"],
     bias: ["separation", "at", "range", "api", "units", "factor", "clamp", "slope"],
+    code: ["what", "language", "uniforms"],
     zfight: ["separation", "sample", "seed", "rasterize"],
     prepass: ["against", "program", "vertices", "sample", "seed"],
     table: [], plot: [], budget: [],
@@ -63,6 +64,7 @@ export const start = (world) => ({
     asked: {
         solve: new Map([["for", "near"], ["separation", world.gap], ["at", world.distance]]),
         bias: new Map([["separation", world.gap], ["at", world.distance], ["api", "all"]]),
+        code: new Map([["what", "linearize"]]),
         zfight: new Map(),
         prepass: new Map([["sample", "100000"]]),
     },
@@ -83,10 +85,17 @@ export const mapOf = (read) => new Map(read.options.map(({ name, value }) => [na
 
 // Options of a set-up that a command does not want although it takes them, and of a question that another one replaces.
 const AFFINE = ["d3d", "gl", "reversed", "gl-reversed"]; // on the screen, so that there is a guarantee at a slant
+const PLACED = ["position", "projection"], PLANES = ["near", "far", "ortho", "unit", "log-c"], CODES = ["format", "rounding"];
+// Code refuses what it has no use for. Codes of depth that no shader writes are those of a format.
+function unwantedOf(what, setup) {
+    const coded = what === "encode" && (setup.has("ortho") || AFFINE.includes(setup.get("mapping") ?? AFFINE[0]));
+    return [...(coded ? PLANES : CODES), ...(PLACED.includes(what) ? [] : VIEW), ...(PLACED.includes(what) || what === "linearize" ? [] : ["depth-range"])];
+}
 function unwanted(verb, asked, setup) {
     const view = AFFINE.includes(setup.get("mapping") ?? AFFINE[0]) || verb === "table" ? [] : VIEW;
     if (verb === "plot") return [...UNUSED[state.figure], ...view];
     if (verb === "solve") return ["at", "range", asked.get("for"), ...view];
+    if (verb === "code") return unwantedOf(asked.get("what") ?? "linearize", setup);
     return verb === "bias" ? ["at", "range", ...view] : view;
 }
 
@@ -99,7 +108,8 @@ export function commandOf(verb, setup, b = state.setups[1]) {
     const options = inOrder.map((name) => [name, given.get(name)]);
     if (verb === "plot" && b && setup !== b && SHARED.includes(state.figure))
         options.push(["beside", commandOf("plot", b, b).slice(2).map((word) => word.replaceAll(" ", "")).join(" ")]);
-    return [verb, ...(verb === "plot" ? [state.figure] : []), ...words(options)];
+    const operand = verb === "plot" ? state.figure : asked.get("method"); // of code, where a line named it
+    return [verb, ...(operand === undefined ? [] : [operand]), ...words(options)];
 }
 
 // All that the page shows, as commands: those of B are its tables alone, for the rest follows.
@@ -191,6 +201,7 @@ async function understand(all, from) {
         if (panel.length > 0) {
             const wanted = given.get("for"); // what is solved for may be given, too: to choose from
             next.asked[verb] = new Map([...given].filter(([name]) => panel.includes(name) || name === wanted));
+            if (verb === "code" && operands.length > 0) next.asked.code.set("method", operands[0]);
             for (const name of panel) given.delete(name);
         }
         if (verb === "table" && next.setups.length < 2) next.setups.push(given);

@@ -28,7 +28,7 @@ function listen(page) {
 }
 
 // What a page that was opened at no link has folded.
-export const FOLDS = ["plot", "table", "solve", "bias"];
+export const FOLDS = ["plot", "table", "solve", "bias", "code"];
 const unfold = (page) => page.evaluate((names) => {
     if (document.querySelector("[data-panel][open]") === null) for (const name of names) document.querySelector(`[data-panel=${name}]`).open = true;
 }, FOLDS);

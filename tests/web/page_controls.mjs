@@ -94,6 +94,7 @@ async function setUp(page, which, [selector, value, changes, before = []]) {
 
 const solve = (more) => ["solve", ...changed([...changed(A, { "-n": null }), "--separation", "2cm", "--at", "200m", "--for", "near"], more)];
 const bias = (more) => ["bias", ...changed([...A, "--separation", "2cm", "--at", "200m", "--api", "all"], more)];
+const code = (what, more) => ["code", "--what", what, "-n", "0.1", "-f", "1000", "-m", "d3d", "--unit", "m", ...more];
 const QUESTIONS = [
     ["solve", "separation", "3cm", solve({ "--separation": "3cm" })],
     ["solve", "at", "70m", solve({ "--at": "70m" })],
@@ -102,6 +103,9 @@ const QUESTIONS = [
     ["bias", "separation", "5cm", bias({ "--separation": "5cm" })],
     ["bias", "at", "30m", bias({ "--at": "30m" })],
     ["bias", "api", "gl", bias({ "--api": "gl" })],
+    ["code", "language", "wgsl", code("linearize", ["--language", "wgsl"])],
+    ["code", "what", "position", code("position", ["--viewport", "1920x1080"])],
+    ["code", "what", "projection", code("projection", ["--viewport", "1920x1080"])],
 ];
 
 async function question(page, [panel, option, value, line]) {
@@ -267,6 +271,23 @@ async function planes() {
     await close(page);
 }
 
+// What is printed for an engine is in the language of its users; the button puts it on the clipboard, to the byte.
+async function codeOfEngines() {
+    const page = await open(), seenBefore = new Set();
+    await page.evaluate(() => (navigator.clipboard.writeText = async (text) => void (window.copied = text)));
+    for (const [engine, language] of [["three", "GLSL"], ["unity", "HLSL"], ["bevy", "WGSL"]]) {
+        await put(page, "#engine", engine);
+        const run = await page.locator("[data-panel=code] [data-run]").getAttribute("data-run"), [said] = await native([run.split(" ")]);
+        await page.locator("[data-panel=code] [data-export=copy]").click();
+        const { text } = await seen(page, "code", 0), copied = await page.evaluate(() => window.copied);
+        demand(run.includes(`--preset ${engine} `) && text === said.out && copied === said.out, `${engine}: ${run}\n${text}${copied}${said.out}${said.err}`);
+        demand(LANGUAGES[language].test(text) && !seenBefore.has(text), `${engine} is written in ${language}: ${text}`);
+        seenBefore.add(text);
+    }
+    await close(page);
+}
+const LANGUAGES = { GLSL: /precise float z/, HLSL: /float eye_depth\(float d\)[^]*f;/, WGSL: /fn eye_depth\(d: f32\)/ };
+
 export async function controls() {
     await test("each control of both set-ups: table, sentence and letter are those of the command", async () => {
         for (const which of [0, 1])
@@ -286,6 +307,7 @@ export async function controls() {
         }
         return `${QUESTIONS.length} fields`;
     });
+    await test("code in the language of the engine's users, to paste", codeOfEngines);
     await test("a link holds what differs, Back and Forward step through changes", address);
     await test("the second picture: reversed fp32, or B; every mapping is drawn", pictures);
     await test("gap and distance are lengths that stay when the camera changes", worldIsFixed);

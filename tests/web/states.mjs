@@ -43,7 +43,7 @@ const RASTERS = ["llvmpipe", "swiftshader", "warp", "spec-d3d", "spec-vulkan"];
 
 // What the program's lists say now is better than what is written here; see named().
 export const names = { formats: FORMATS, mappings: MAPPINGS, apis: APIS, rasters: RASTERS, presets: [], ariths: [],
-    models: ["exact", "float", "staged"], roundings: [], compositions: [], platforms: [] };
+    models: ["exact", "float", "staged"], roundings: [], compositions: [], platforms: [], languages: ["glsl", "c"] };
 
 // Takes the names that the program's `list TOPIC --json` prints.
 export function named() {
@@ -56,6 +56,7 @@ export function named() {
     names.apis = [...list("apis"), "all"];
     names.rasters = list("rasterizers");
     names.platforms = list("platforms");
+    names.languages = list("languages");
 }
 
 function camera(r) {
@@ -121,6 +122,12 @@ const commands = {
             : [...some(r, 0.5, () => ["--separation", written(r, r.spread(1e-5, 1), true)]), ...some(r, 0.2, () => view(r))]),
         ...some(r, 0.3, () => ["--factor", written(r, r.between(-4, 4))]),
         ...some(r, 0.3, () => ["--slope", written(r, r.spread(1e-4, 1))])],
+    code: (r, c) => {
+        const what = r.of(["linearize", "linearize", "linearize", "position", "projection", "encode", "pack", "normal"]), of = r.chance(0.1) ? "" : what;
+        const words = c.words.flatMap((word, i) => (i % 2 === 0 && (of === "" || !(of === "encode" ? ["-n", "-f"] : ["-F"]).includes(word)) ? [word, c.words[i + 1]] : []));
+        return [...some(r, 0.1, () => [r.of(["complement", "textbook", "unity", "double", "rgba"])]), ...(of === "pack" || of === "normal" ? [] : words.filter((word) => !word.includes(","))),
+            "--what", what, ...some(r, 0.8, () => ["--language", r.of(names.languages)]), ...some(r, 0.2, () => ["--uniforms"]), ...planned(r)];
+    },
     plot: (r, c) => {
         const figure = r.of(FIGURES);
         return [figure, ...c.words, ...some(r, 0.4, () => model(r)), ...some(r, 0.2, () => ["--at", depths(r, c)]),
@@ -139,7 +146,7 @@ function spoil(r, words) {
 // A random command line, as words.
 export function state(r) {
     const verb = r.chance(0.03) ? "zfight" // which takes seconds
-        : r.of(["table", "table", "table", "budget", "budget", "solve", "solve", "bias", "bias", "plot", "prepass"]);
+        : r.of(["table", "table", "table", "budget", "budget", "solve", "solve", "bias", "bias", "plot", "prepass", "code"]);
     const words = [verb, ...commands[verb](r, camera(r)), ...(verb === "plot" ? [] : form(r))];
     return r.chance(0.06) ? spoil(r, words) : words;
 }

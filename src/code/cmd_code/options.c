@@ -45,7 +45,7 @@ static const option_use uses[] = {
         WITHOUT("perspective; H 5")),
     OWN("depth-range", ALSO("the function undoes it")),
     TAKE("log-c"), TAKE("hfov"), GROUP_OF(camera_projected),
-    TAKE("json"), TAKE("output"), TAKE("quiet"), END};
+    TAKE("link"), TAKE("json"), TAKE("output"), TAKE("quiet"), END};
 
 static const option_rule rules[] = {
     CONFLICTS("fov", "ortho", ": --ortho=H says how high the view is"),
