@@ -556,6 +556,44 @@ TEST(same_camera) {
     tally_end(&t);
 }
 
+/* Where NDC depth A + B/z has such a value: a distance, INFINITY, or less than 0. */
+static double depth_where(double a, double b, double ndc) {
+    const double z = ndc == a ? INFINITY : b / (ndc - a);
+    return z < 0 ? -1 : z;
+}
+
+/* Entries fit a range of NDC depth where both of its ends are before the camera. Where they fit [0, 1] and [-1, 1] one
+ * is assumed, where they fit one alone it is found. */
+TEST(the_mapping_is_found_where_one_alone_fits) {
+    tally t = {.name = "conventions"};
+    rng r = rng_make("conventions");
+    const char *path = scratch_file("matrix.txt"), *shot = scratch_file("shot.npy");
+    int seen[2] = {0};
+    printed made = print_of("texture --synthetic plane --size 8x6 -F unorm24 -m d3d -n 1 -f 9 -o '%s'", shot);
+    assert_int_equal(made.status, 0);
+    printed_free(&made);
+    for (uint64_t n = test_cases(16, 40, 400); n > 0; n--) {
+        const bool is_signed = rng_below(&r, 2) == 0, reversed = rng_below(&r, 2) == 0;
+        const double near = rng_log(&r, 0.1, 10), far = rng_below(&r, 3) == 0 ? INFINITY : near * rng_log(&r, 2, 100);
+        const double low = is_signed ? -1 : 0, at_near = reversed ? 1 : low, at_far = reversed ? low : 1;
+        const double b = (at_near - at_far) / (1 / near - 1 / far), a = at_far - b / far;
+        const double one = depth_where(a, b, 1), zero = depth_where(a, b, 0), minus = depth_where(a, b, -1);
+        const bool open = one > 0 && (is_signed ? zero : minus) > 0;
+        FILE *out = fopen(path, "w");
+        assert_non_null(out);
+        fprintf(out, "1 0 0 0  0 2 0 0  0 0 %.17g %.17g  0 0 1 0\n", a, b);
+        fclose(out);
+        json_t *root = json_printed(0, "texture '%s' -F unorm24 --matrix %s --pixel 1,1 --json", shot, path);
+        const char *from = json_string_value(json_object_get(root, "mapping_from"));
+        seen[open]++;
+        TALLY(&t, from != NULL && strcmp(from, open ? "assumed" : "found") == 0, "%.17g %.17g: %s", a, b,
+              from != NULL ? from : "nothing");
+        json_decref(root);
+    }
+    assert_true(seen[0] > 0 && seen[1] > 0);
+    tally_end(&t);
+}
+
 /* Planes from rounded entries: halves of steps of binary32 or of the last digit, by hand; near is e/(c + 1),
  * far e/(c - 1) of a row -c, -e of NDC depths from -1 on. Few digits are exact. */
 TEST(planes_by_digits) {
