@@ -3,6 +3,8 @@
  * (1 for a check that failed, 3 for a file that cannot be read or written). */
 #include "printed.h"
 
+#define STREET "tests/models/street.obj"
+
 typedef struct refusal {
     const char *arguments, *option; /* without its dashes; "" where no option is at fault */
     int status;
@@ -402,6 +404,145 @@ static const refusal refusals[] = {
     {"texture --product effect:fog --fov 30", "fov", 2},
     {"texture --product effect:fog --parameter level=1", "parameter", 2},
     {"texture --product effect:fog --at 5000", "at", 2},
+    {"bias --arith mesa", "arith", 2},
+    {"bias --units 5 --viewport 64x48 --rasterize --render x.txt -F d16 -m d3d", "render", 2},
+    {"bias --units 5 --viewport 64x48 --rasterize --render x.png -F d16,d24 -m d3d", "render", 2},
+    {"bias --remedy nothing", "remedy", 2},
+    {"bias --rasterize --raster spec-d3d --viewport 64x48", "raster", 2},
+    {"code --ortho --depth-range 0.2:0.8", "depth-range", 2},
+    {"code --uniforms --language fpcore", "uniforms", 2},
+    {"code --what encode -F fp32", "format", 2},
+    {"code --what projection -m log", "mapping", 2},
+    {"code -m d3d,gl", "mapping", 2},
+    {"code -F d16,d24", "mapping", 2},
+    {"convert d24", "", 2},
+    {"convert d24 nothing", "", 2},
+    {"convert d24 rg", "", 2},
+    {"convert fp32 d24 --read divide", "read", 2},
+    {"convert d24 d16 --read divide --write shift", "read", 2},
+    {"convert d24 fp32 --write shift", "write", 2},
+    {"convert d24 fp32 --write round", "write", 2},
+    {"convert d24 d16 --saturate --write shift", "saturate", 2},
+    {"convert d24 fp32 --saturate", "saturate", 2},
+    {"convert d24 d16 --flush", "flush", 2},
+    {"judge x.csv -F d16,d24", "format", 2},
+    {"methods encode --mine x.glsl:f", "mine", 2},
+    {"methods interval --device x", "device", 2},
+    {"methods encode -F fp16 --device x", "device", 2},
+    {"plot budget -o x.svg --composition once", "composition", 2},
+    {"table --lattice even", "lattice", 2},
+    {"table --lattice even:0.1@0.2", "lattice", 2},
+    {"scene " STREET " -F d16,d24", "format", 2},
+    {"scene " STREET " --within 0.001", "within", 2},
+    {"scene " STREET " --within 10 --report junit --csv", "report", 2},
+    {"scene " STREET " --report junit", "report", 2},
+    {"scene " STREET " --separation 0 --emit-need x.need", "emit-need", 2},
+    {"scene " STREET " --api d3d11,gl", "api", 2},
+    {"scene " STREET " --eye 1,2,3 --look 1,2,3", "look", 2},
+    {"scene " STREET " --camera one", "camera", 2},
+    {"scene " STREET " --path /nonexistent", "path", 3},
+    {"scene " STREET " --eye 0,1,9 --look 0,0,0 --viewport 64x48 --slant 0:5", "slant", 2},
+    {"scene " STREET " --eye 0,1,9 --look 0,0,0 --render x.txt", "render", 2},
+    {"scene " STREET " --eye 0,1,9 --look 0,0,0 --render x.png --viewport 16384x16384", "viewport", 2},
+    {"shadow --rasterize --raster spec-d3d", "raster", 2},
+    {"shadow --rasterize --raster softpipe -F fp16", "format", 2},
+    {"shadow --rasterize --render x.txt", "render", 2},
+    {"shadow --rasterize --render x.png -F d16,d24", "render", 2},
+    {"solve --viewport 64x48 --model exact --separation 0.1 --at 5", "model", 2},
+    {"solve --viewport 64x48 -m log --separation 0.1 --at 5", "mapping", 2},
+    {"solve --matrix 1,0,0,0,0,2,0,0,0,0,2,-2,0,0,1,0 -m d3d --for near --separation 0.1 --at 1.5", "matrix", 2},
+    {"solve --model float --error 0.1 --at 5", "model", 2},
+    {"solve --preset maplibre:height=800 -F d16,d24 --separation 1", "format", 2},
+    {"solve --preset maplibre:height=800 -m d3d,gl --separation 1", "mapping", 2},
+    {"solve --for frusta -f 1000 -F d16,d24 -m d3d --separation 0.1", "format", 2},
+    {"solve --for frusta -f 1000 -F d16 -m d3d,gl --separation 0.1", "mapping", 2},
+    {"texture --synthetic plane --as even:0.1", "as", 2},
+    {"texture --synthetic plane --product raw --as even:0.1 -o x.npy", "as", 2},
+    {"texture --synthetic plane --range 1:2", "range", 2},
+    {"texture --synthetic plane --product eye --range 1:2 -o x.png", "range", 2},
+    {"texture --synthetic plane --product effect:fog --range 0:1 -o x.npy", "range", 2},
+    {"texture --synthetic plane --picture x.png", "picture", 2},
+    {"texture --synthetic plane --product effect:fog --picture x.png -o x.npy", "picture", 2},
+    {"texture --synthetic plane --normal-format directx", "normal-format", 2},
+    {"texture --synthetic plane --product normal:low --normal-format directx -o x.npy", "normal-format", 2},
+    {"texture --synthetic plane --hi-z 2", "hi-z", 2},
+    {"texture --synthetic plane --channel z", "channel", 2},
+    {"texture --synthetic plane --packing rgba", "packing", 2},
+    {"table --depth-range 0.5", "depth-range", 2},
+    {"table --depth-range 0.5:0.5", "depth-range", 2},
+    {"table --depth-range 0:2", "depth-range", 2},
+    {"budget -m d3d --log2 glsl", "log2", 2},
+    {"table --slant 0:91 --viewport 64x48", "slant", 2},
+    {"plot fight --csv --slant 91,0", "slant", 2},
+    {"table --matrix 1,0,0,0,0,2,0,0,0,0,2,-2,0,0,1,0 -m log", "mapping", 2},
+    {"table --matrix 1,0,0,0,0,2,0,0,0,0,2,-2,0,0,1,0 -m d3d -n 1", "matrix", 2},
+    {"table --matrix 1,0,0,0,0,2,0,0,0,0,2,-2,0,0,1,0 -m d3d --ortho", "matrix", 2},
+    {"table --matrix 1,0,0,0,0,2,0,0,0,0,2,-2,0,0,1,0 -m reversed", "mapping", 2},
+    {"table --matrix=-1,0,0,0,0,2,0,0,0,0,2,-2,0,0,1,0 -m d3d", "matrix", 2},
+    {"table --matrix 1,2,0,0,0,2,0,0,0,0,2,-2,0,0,1,0 -m d3d", "matrix", 2},
+    {"table --matrix 1,0,0,0,3,2,0,0,0,0,2,-2,0,0,1,0 -m d3d", "matrix", 2},
+    {"table --matrix 1,0,0,0,0,2,0,0,0,0,0,0,0,0,1,0 -m d3d", "matrix", 2},
+    {"table --matrix 1,2,3", "matrix", 2},
+    {"table --matrix -1,1,-1,1", "matrix", 2},
+    {"table -F rg -m d3d --rounding zero", "rounding", 2},
+    {"table -F rg,d16 --arith mesa -m linear", "arith", 2},
+    {"table -m linear --arith mesa", "arith", 2},
+    {"table --at 1:5:lin:1", "at", 2},
+    {"table --at 5:1:lin:3", "at", 2},
+    {"table --at 0:5:log:3", "at", 2},
+    {"table --at 1:5:codes", "at", 2},
+    {"table --at @/nonexistent", "at", 2},
+    {"table --at @/dev/null", "at", 2},
+    {"table --nosuch", "", 2},
+    {"table -Q", "", 2},
+    {"tabel", "", 2},
+    {"table 5", "", 2},
+    {"check", "", 2},
+    {"help nothing", "", 2},
+    {"table -o x.png", "output", 2},
+    {"texture --synthetic plane --size 65536x65536", "size", 2},
+    {"code --what encode --depth-range 0.2:0.8", "depth-range", 2},
+    {"code --language glsl --what projection x", "", 2},
+    {"code --what projection x -m d3d", "", 2},
+    {"code encode", "", 2},
+    {"convert d24 d16 --write shift:5", "write", 2},
+    {"convert d24 fp32 --write cut:0.5", "write", 2},
+    {"judge", "", 2},
+    {"judge nosuch.glsl", "", 3},
+    {"methods linearize --mine nosuch.glsl:f", "", 3},
+    {"plot error", "", 2},
+    {"plot error --tolerance 1% --csv -n 1 -f 5", "tolerance", 2},
+    {"plot pareto --mine x:f --csv", "", 3},
+    {"shadow --curvature x", "curvature", 2},
+    {"shadow --camera-depth d16:d3d,1:5", "camera-depth", 2},
+    {"shadow --filter pcf:99", "filter", 2},
+    {"shadow --filter vsm:1", "filter", 2},
+    {"solve --separation 1e6 --at 5 -f 1000", "separation", 2},
+    {"solve --error 0.1 --at 5 --viewport 64x48", "error", 2},
+    {"solve --for frusta -f 1000", "separation", 2},
+    {"solve --for frusta -f inf --separation 1", "far", 2},
+    {"solve --preset maplibre:height=800 --for far --separation 1", "for", 2},
+    {"solve --preset maplibre:height=800", "separation", 2},
+    {"solve --preset maplibre:height=800 --separation 1 --at 1,2", "at", 2},
+    {"texture --synthetic plane --radial", "radial", 2},
+    {"texture --synthetic plane --product effect:fog --parameter level=1 --parameter level=2 -o x.npy", "parameter", 2},
+    {"texture --synthetic plane --product pack:rg", "", 2},
+    {"texture --synthetic plane --product pack:rg -o x.pfm", "output", 2},
+    {"texture --synthetic plane --product packed-normal -o x.npy", "product", 2},
+    {"texture --synthetic plane --parameter distance", "parameter", 2},
+    {"texture --synthetic plane --parameter distance=-1", "parameter", 2},
+    {"texture --synthetic plane --product eye", "", 2},
+    {"texture --synthetic plane -F fp32 --product linear01 -o x.xyz", "output", 2},
+    {"texture --parameter distance=1 x.npy", "parameter", 2},
+    {"texture --metric mm", "", 2},
+    {"texture --synthetic plane --metric mm", "metric", 2},
+    {"texture --synthetic plane -F unorm32", "format", 2},
+    {"texture --stereo focal=1 x.png", "stereo", 2},
+    {"texture --stereo focal=x,baseline=1 x.png", "stereo", 2},
+    {"texture --stereo nothing x.png", "stereo", 2},
+    {"texture --metric mm,wrong x.png", "metric", 2},
+    {"world -f 5", "at", 2},
+    {"prepass --against fma -n 1 -f 1e39", "far", 2},
 };
 
 static void check_refusal(tally *t, const char *arguments, const char *option, int status) {
@@ -481,6 +622,32 @@ TEST(each_side_has_its_limits) {
                 fail_msg("%s %dx%d: exit status %d, %s", sides[i].line, size[0], size[1], p.status, p.errors);
             printed_free(&p);
         }
+}
+
+/* The last value that is accepted, and the first that is not. */
+TEST(limits_between_options) {
+    static const struct {
+        const char *line, *last, *beyond, *option;
+    } rows[] = {
+        {"convert d24 d16 --code", "16777215", "16777216", "code"},
+        {"convert d16 d24 --code", "0,65535", "0,65536", "code"},
+        {"code --what encode -F", "unorm24", "unorm25", "format"},
+        {"scene " STREET " --angle", "89", "89.1", "angle"},
+        {"scene " STREET " --separation", "1e50", "1.1e50", "separation"},
+        {"scene " STREET " -f 500 --within", "500", "500.1", "within"},
+        {"scene " STREET " -n 0.5 --within", "0.5", "0.49", "within"},
+        {"shadow --rasterize --kernel", "32", "33", "rasterize"},
+    };
+    tally t = {.name = "limits"};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        char line[160];
+        printed p = print_of("%s %s", rows[i].line, rows[i].last);
+        TALLY(&t, p.status <= 1, "%s %s: exit status %d, %s", rows[i].line, rows[i].last, p.status, p.errors);
+        printed_free(&p);
+        snprintf(line, sizeof line, "%s %s", rows[i].line, rows[i].beyond);
+        check_refusal(&t, line, rows[i].option, 2);
+    }
+    tally_end(&t);
 }
 
 /* A range needs two binary32 depths in it: those between the middles of their neighbours, none, one or two. */
