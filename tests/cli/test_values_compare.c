@@ -290,6 +290,38 @@ TEST(test_three) {
     }
 }
 
+/* Several set-ups are a line each, but where more is asked than a line holds: then each is told as it is alone. */
+TEST(what_a_line_does_not_hold) {
+    static const struct {
+        const char *options;
+        bool alone;
+    } rows[] = {{"", false},
+                {"--at 1,2,3,4,5", false},
+                {"--at 1,2,3,4,5,6", true},
+                {"--full", true},
+                {"--model float", true},
+                {"--range 1:2", true},
+                {"--tolerance 1%", true}};
+    static const char *const formats[] = {"unorm16", "unorm24"};
+    tally t = {.name = "blocks"};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        printed both = print_of("table -m d3d -F unorm16,unorm24 %s", rows[i].options);
+        for (int k = 0; k < 2; k++) {
+            printed one = print_of("table -m d3d -F %s %s", formats[k], rows[i].options);
+            const size_t heading = strcspn(one.out, "\n");
+            one.out[heading] = '\0';
+            const char *at = strstr(both.out, one.out);
+            TALLY(&t, both.status == 0 && one.status == 0 && heading > 10, "%s: %s%s", rows[i].options, both.errors,
+                  one.errors);
+            TALLY(&t, (at != NULL && at[heading] == '\n') == rows[i].alone, "%s: '%s' is in\n%s", rows[i].options,
+                  one.out, both.out);
+            printed_free(&one);
+        }
+        printed_free(&both);
+    }
+    tally_end(&t);
+}
+
 /* Where the unit is known, the same separations are named in units of their own. */
 TEST(test_units) {
     static const char *const bare[] = {"0.001", "0.01", "0.1"}, *const named[] = {"1 mm", "1 cm", "10 cm"};
