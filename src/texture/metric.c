@@ -32,7 +32,7 @@ double metric_find_top(const image *img) {
     double most = 0, next = 0;
     for (size_t i = 0; i < count; i++) {
         const double x = image_sample(img, i);
-        if (!is_depth(x) || x == most)
+        if (x <= next || !is_depth(x) || x == most)
             continue;
         next = fmax(next, fmin(x, most));
         most = fmax(most, x);

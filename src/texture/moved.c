@@ -69,14 +69,12 @@ static bool is_sample(uint32_t x) {
     return x != 0 && x != HOLE;
 }
 
-/* The vote of a sample between two neighbours, above 0 for moved bits: where those from above differ, neighbours are
- * near each other once these are above again. */
-static int is_rotated(const uint32_t x[3], int bits) {
-    int vote = 0;
-    for (int i = 0; i < 2; i++)
-        if (is_sample(x[i]) && is_sample(x[i + 1]) && ((x[i] ^ x[i + 1]) & ((1U << bits) - 1)) != 0)
-            vote += apart(back(x[i], bits), back(x[i + 1], bits)) < apart(x[i], x[i + 1]) ? 1 : -1;
-    return vote;
+/* The vote of two neighbours, above 0 for moved bits: where those from above differ, they are near each other once
+ * these are above again. */
+static int is_rotated(uint32_t a, uint32_t b, int bits) {
+    if (!is_sample(a) || !is_sample(b) || ((a ^ b) & ((1U << bits) - 1)) == 0)
+        return 0;
+    return apart(back(a, bits), back(b, bits)) < apart(a, b) ? 1 : -1;
 }
 
 /* A sample and its neighbours, all of them in rows, then all in columns. */
@@ -106,15 +104,39 @@ static bool three_next(three *t) {
     return true;
 }
 
+/* The votes of a row's pairs, and of the pairs with the row above, for the sample between two of them; `above` has what
+ * the pairs before voted. */
+static void vote_in_row(const image *img, int bits, size_t y, signed char *above, int32_t *votes) {
+    const size_t width = img->width, first = y * width;
+    int left = 0;
+    for (size_t x = 0; x < width; x++) {
+        const uint32_t here = sample_at(img, first + x);
+        if (x > 0) {
+            const uint32_t before = sample_at(img, first + x - 1);
+            const int vote = is_rotated(before, here, bits);
+            votes[before] += x > 1 ? left + vote : 0;
+            left = vote;
+        }
+        if (y > 0) {
+            const uint32_t before = sample_at(img, first + x - width);
+            const int vote = is_rotated(before, here, bits);
+            votes[before] += y > 1 ? above[x] + vote : 0;
+            above[x] = (signed char)vote;
+        }
+    }
+}
+
 /* Each value has one vote, whatever how many pixels have it. */
 static bool is_told(const image *img, int bits) {
     int32_t *votes = calloc(VALUES, sizeof *votes);
+    signed char *above = calloc(img->width, sizeof *above);
     long balance = 0;
-    for (three t = {.img = img}; votes != NULL && three_next(&t);)
-        votes[t.x[1]] += is_rotated(t.x, bits);
+    for (size_t y = 0; y < img->height && votes != NULL && above != NULL; y++)
+        vote_in_row(img, bits, y, above, votes);
     for (size_t v = 0; v < VALUES && votes != NULL; v++)
         balance += votes[v] > 0 ? 1 : votes[v] < 0 ? -AGAINST : 0;
     free(votes);
+    free(above);
     return balance >= VOTES;
 }
 
@@ -204,6 +226,8 @@ static double share_of(const image *img, const layout *l) {
         all++;
         good += x >= 1e-3 && x <= 1e5 && fabs(x - last) < 0.125 * x && apart(bits >> 16, bits & 0xFFFF) > 256;
         last = x;
+        if (2 * (all - good) > (double)count)
+            return 0; /* it cannot be most of them any more */
     }
     return all > DIFFERENT ? good / all : 0;
 }

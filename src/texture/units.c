@@ -79,11 +79,13 @@ static extent extent_of(const image *img) {
         const double x = image_sample(img, i);
         if (!(x > 0) || !isfinite(x) || x == top)
             continue;
+        e.count++;
+        if (x >= e.next && x <= e.most)
+            continue; /* as nearly all of them */
         if (x != e.least)
             e.next = x < e.least ? e.least : fmin(e.next, x);
         e.least = fmin(e.least, x);
         e.most = fmax(e.most, x);
-        e.count++;
     }
     return e;
 }

@@ -45,12 +45,14 @@ static bool is_sky(const texture_request *o, uint32_t code) {
 
 static bool count_all(const texture_request *o) {
     const uint32_t width = source.picture.width;
+    const bool codes_alone = source.setup.spec.format.kind == DP_FORMAT_UNORM;
     uint32_t *codes = malloc(width * sizeof *codes), least = UINT32_MAX, most = 0;
     for (uint32_t y = 0; codes != NULL && y < source.picture.height; y++) {
         image_codes(&source.picture, &source.setup.spec.format, y, 0, width, codes);
         for (uint32_t x = 0; x < width; x++) {
             const uint32_t code = codes[x];
-            const bool hole = code == UINT32_MAX, sky = !hole && is_sky(o, code);
+            const bool within = codes_alone && code >= least && code <= most; /* sky lies at one end */
+            const bool hole = code == UINT32_MAX, sky = !hole && !within && is_sky(o, code);
             all.holes += hole;
             all.sky += sky;
             if (hole || sky)
