@@ -6,6 +6,25 @@
 
 static stability_result results[STABILITY_MAX];
 
+/* A family is measured once for all tests that look at it as it is. */
+static const stability_result *results_of(const method_family_row *family, size_t *count) {
+    enum { FAMILIES = 8 };
+    static struct {
+        const method_family_row *family;
+        size_t count;
+        stability_result results[STABILITY_MAX];
+    } had[FAMILIES];
+    int i = 0;
+    while (i < FAMILIES - 1 && had[i].family != NULL && had[i].family != family)
+        i++;
+    if (had[i].family != family) {
+        had[i].family = family;
+        had[i].count = stability_run(family, STABILITY_ALL, had[i].results);
+    }
+    *count = had[i].count;
+    return had[i].results;
+}
+
 /* A word where more is lost than said, and none elsewhere; it is lost between two steps; a digit that is claimed is. */
 static void check_losses(tally *t, const method_family_row *family, const stability_result *r) {
     const method_claim *c = &r->row->claims[r->which];
@@ -28,11 +47,12 @@ static void check_losses(tally *t, const method_family_row *family, const stabil
 
 static void check_family(const char *name) {
     const method_family_row *family = method_family_find(name);
-    size_t count = stability_run(family, STABILITY_ALL, results);
+    size_t count;
+    const stability_result *found = results_of(family, &count);
     tally t = {.name = name};
     assert_true(count > 0);
     for (size_t i = 0; i < count; i++) {
-        const stability_result *r = &results[i];
+        const stability_result *r = &found[i];
         const method_claim *c = &r->row->claims[r->which];
         const char *where = family->cases[r->which].name;
         for (int k = 0; k < r->steps && !isnan(c->worst); k++)
@@ -135,9 +155,10 @@ TEST(worst_is_where_it_is_said) {
     tally t = {.name = "places"};
     for (size_t f = 0; f < 3; f++) {
         const method_family_row *family = method_family_find(names[f]);
-        const size_t count = stability_run(family, STABILITY_ALL, results);
+        size_t count;
+        const stability_result *found = results_of(family, &count);
         for (size_t i = 0; i < count; i++) {
-            const stability_result *r = &results[i];
+            const stability_result *r = &found[i];
             method_inputs in;
             method_outputs out;
             dp_setup setup;
@@ -244,11 +265,12 @@ static double worst_of_perspective(int camera, bool reversed) {
 
 TEST(perspective_functions_elsewhere) {
     const method_family_row *family = method_family_find("linearize");
-    const size_t count = stability_run(family, STABILITY_ALL, results);
+    size_t count;
+    const stability_result *found = results_of(family, &count);
     tally t = {.name = "other cameras"};
     size_t seen = 0;
     for (size_t i = 0; i < count; i++) {
-        const stability_result *r = &results[i];
+        const stability_result *r = &found[i];
         const bool reversed = r->which == 1;
         if (strcmp(r->row->name, "complement") != 0 && strcmp(r->row->name, "phi-double") != 0)
             continue;
@@ -289,11 +311,12 @@ TEST(what_takes_the_fourth_digit) {
         {"fused", "cancellation", rounded, 0.5, 2},      {"ortho-eye", "cancellation", rounded, 0.5, 3},
     };
     const method_family_row *family = method_family_find("linearize");
-    const size_t count = stability_run(family, STABILITY_ALL, results);
+    size_t count;
+    const stability_result *found = results_of(family, &count);
     size_t seen = 0;
     for (size_t i = 0; i < count; i++)
         for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
-            const stability_result *r = &results[i];
+            const stability_result *r = &found[i];
             if (strcmp(r->row->name, rows[k].name) != 0 || isinf(r->lost))
                 continue;
             const double share = 1e-4 / rows[k].error(r->lost);
@@ -363,10 +386,11 @@ TEST(encoders_walk_over_binades) {
 /* 24 bits of a product and 2^23 more do not fit into binary32 from a half on. */
 TEST(encoders_lose_the_last_binade) {
     const method_family_row *family = method_family_find("encode");
-    const size_t count = stability_run(family, STABILITY_ALL, results);
+    size_t count;
+    const stability_result *found = results_of(family, &count);
     size_t seen = 0;
     for (size_t i = 0; i < count; i++) {
-        const stability_result *r = &results[i];
+        const stability_result *r = &found[i];
         const bool wide = strcmp(family->cases[r->which].format, "unorm24") == 0;
         const bool lost = wide && (strcmp(r->row->name, "magic") == 0 || strcmp(r->row->name, "floor") == 0);
         assert_true(lost ? r->lost == 0.5 : isinf(r->lost));
