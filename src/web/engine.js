@@ -3,6 +3,7 @@
 // its own, so that nothing is left of the one before.
 
 const AXES = ["gap", "distance", "near", "far"]; // see picture.c
+export const NEED = "depthprec.need"; // the name of the requirement file of the page
 const NO_FILE = 44, BAD_HANDLE = 8; // WASI's errno
 const encoder = new TextEncoder();
 
@@ -127,9 +128,15 @@ export async function load(from, host = () => ({})) {
 
         // The command's exit status and what it wrote, up to so many bytes; `left` are the others. Where asked for, the cells
         // of tables are parted, see sheet.js. What begins with "seen" is a frame of a picture by the GPU, with "ways" what else
-        // would do: see picture.c; with "profile" what a GPU is: see profile.c.
-        run: ([first, ...others], most, cells) =>
-            ["seen", "ways", "profile"].includes(first) ? call(first, others, most) : call("run", [first, ...others], most, cells),
+        // would do, with "need" a requirement file: see picture.c; with "profile" what a GPU is: see profile.c; with "judged"
+        // check of a file with that text.
+        run: ([first, ...others], most, cells) => {
+            if (["seen", "ways", "need", "profile"].includes(first)) return call(first, others, most);
+            if (first !== "judged") return call("run", [first, ...others], most, cells);
+            const own = begin(most), bytes = encoder.encode(others[0]);
+            put(own.exports.file(bytes.length), bytes, own.memory);
+            return call("run", ["check", NEED], most, false, own);
+        },
 
         // The program reads the words: { status, err, verb, operands, options: [{ name, value }] }.
         parse(words) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page: it begins, and listens. It computes no number that is shown: each comes out of the module, see engine.js.
 import { createAside, inWorker, serve } from "./aside.js";
+import { createCheckPanel } from "./check_panel.js";
 import { commands, join, LONGEST, split, toFragment, written } from "./command.js";
 import { load } from "./engine.js";
 import { numberOfStep } from "./figure.js";
@@ -157,6 +158,7 @@ async function begin() {
         judged: (text) => ["judge", ...commandOf("judge", state.setups[0]).slice(1), "--", text],
         take,
     });
+    page.checkPanel = createCheckPanel();
     page.imagePanel = createImagePanel({
         $, make, aside: page.aside, setup: () => state.setups[0], take, otherWay: OTHER_WAY, packings: names("packing", "texture"),
         camera: (all) => words([...state.setups[0]].filter(([name]) => all.includes(name))),

@@ -18,6 +18,7 @@
 #include "core/append.h"
 #include "core/elementary.h"
 #include "report/number.h"
+#include "solve/cmd/written.h"
 #include "solve/distance.h"
 #include "solve/plane.h"
 #include "web/gpu.h"
@@ -48,6 +49,8 @@ static uint32_t *pixels;
 static typed given[AXES];
 static const unit_row *scene; /* null where nothing says what a scene unit is */
 static draw_picture_count count;
+static dp_spec set_up;           /* whether it is drawn or not */
+static const raster_row *raster; /* null where none is named */
 static paste engine;
 static bias_api biased;     /* by its rule, and in its words */
 static const char *undrawn; /* why there is no picture; null: there is one */
@@ -146,8 +149,9 @@ PAGE_EXPORT("number") void number_say(double value, int way) {
 /* Makes the picture of the first camera, format and mapping, where it can be drawn. */
 static int make(const camera_asked *all) {
     const camera_asked *c = camera_of(all, 0);
-    const dp_spec spec = camera_to_spec(&c->said);
-    undrawn = draw_picture_open(&picture, &spec, c->raster, given[DISTANCE].value);
+    set_up = camera_to_spec(&c->said);
+    raster = c->raster;
+    undrawn = draw_picture_open(&picture, &set_up, raster, given[DISTANCE].value);
     return EXIT_FINE;
 }
 
@@ -400,6 +404,28 @@ PAGE_EXPORT("ways") int ways(int n) {
     printf("null]\n");
     fflush(NULL);
     return status;
+}
+
+/** Prints a requirement file that asks what the headline answers, of words as picture_set() has them.
+ * @return exit status */
+PAGE_EXPORT("need") int need_words(int n) {
+    static output out;
+    char **words;
+    const int argc = page_words(n, &words), status = picture_of(argc, words);
+    const double distance = given[DISTANCE].value;
+    if (status != EXIT_FINE || output_open(&out, NULL) != EXIT_FINE)
+        return status;
+    const bool computed = !set_up.ortho && dp_mapping_get(set_up.mapping)->curve == DP_CURVE_PERSPECTIVE;
+    set_up.model = computed ? DP_MODEL_FLOAT : DP_MODEL_EXACT;
+    output_text(&out, "# What a camera must resolve: run `depthprec check` on this file.\n");
+    if (scene != NULL)
+        output_format(&out, "unit = \"%s\";\n", scene->name);
+    output_text(&out, "\ncameras = {\n  a");
+    need_write_camera(&out, &set_up, computed ? "float" : "auto", raster);
+    output_text(&out, "};\n\nrequirements = {\n  apart =\n");
+    need_write_separation(&out, "a", fmin(set_up.znear, distance), distance, given[GAP].value);
+    output_text(&out, "};\n");
+    return output_close(&out);
 }
 
 /* Whether the gap is not too wide to be drawn. */

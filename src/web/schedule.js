@@ -154,4 +154,5 @@ export function showPicture() {
     page.gpuPanel?.draw();
     page.gpuPanel?.follow();
     page.imagePanel?.follow();
+    page.checkPanel?.follow();
 }

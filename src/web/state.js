@@ -51,7 +51,7 @@ export const SECOND = `table -n 0.1 -f 1000 -F fp32 -m reversed --viewport ${VIE
 
 // What the modules share, once it is there: the program, its worker, the panels; and what is under way.
 export const page = {
-    engine: null, aside: null, picture: null, gpuPanel: null, imagePanel: null, widths: null,
+    engine: null, aside: null, picture: null, gpuPanel: null, imagePanel: null, checkPanel: null, widths: null,
     linked: true, opened: false, printing: false, // what is shown came by the address; the link that the page was opened at is shown
     shared: "", // the profile of somebody’s GPU, by the address
     pressed: false, steady: null, before: null, held: "", crossing: "100", facts: [], // see outputs.js, what lies over a figure

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Each control does what it says: it is set as a person sets it, and what is shown, beside it, above the panels and of
 // which set-up, is what the program prints for a command that is written here by hand.
+import { spawnSync } from "node:child_process";
+import { mkdtempSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
 import { close, go, open, settled } from "./browser.mjs";
 import { native } from "./native.mjs";
 import { plain } from "./plain.mjs";
@@ -288,6 +292,40 @@ async function codeOfEngines() {
 }
 const LANGUAGES = { GLSL: /precise float z/, HLSL: /float eye_depth\(float d\)[^]*f;/, WGSL: /fn eye_depth\(d: f32\)/ };
 
+// The requirement file asks of set-up A what the page asks, until somebody writes in it; its verdicts, and what is wrong with
+// it, are those that check prints of the same file.
+async function requirements() {
+    const page = await open(), folder = mkdtempSync(join(tmpdir(), "need-")), program = resolve(process.env.DEPTHPREC ?? "build/depthprec");
+    const judged = async (what, must) => {
+        const text = await page.inputValue("#need");
+        writeFileSync(join(folder, "depthprec.need"), text);
+        const { status, stdout, stderr } = spawnSync(program, ["check", "depthprec.need"], { cwd: folder, encoding: "utf8", argv0: "depthprec" });
+        const wanted = [stdout, stderr.trim().replace(/^depthprec: /, "")];
+        await page.waitForFunction(([out, err]) => document.querySelector("#checked").textContent === out && document.querySelector("#unchecked").textContent === err, wanted, { timeout: 5000 })
+            .catch(async () => demand(false, `${what}: ${text}\n${wanted}\n${await page.locator("#checked").textContent()} ${await page.locator("#unchecked").textContent()}`));
+        demand(must.test(stdout + stderr), `${what}: ${stdout}${stderr}`);
+        return status;
+    };
+    const follows = (words) => page.waitForFunction((list) => list.every((one) => document.querySelector("#need").value.includes(one)), words, { timeout: 5000 })
+        .catch(async () => demand(false, `${words}: ${await page.inputValue("#need")}`));
+    await page.locator("#check > summary").click();
+    await follows(["near = 0.1; far = 1000.0; mapping = \"d3d\"", "range = [0.1, 200.0]; separation = 0.02;"]);
+    demand((await judged("at first", /FAIL .* any\s+slant/s)) === 1, "2 cm at 200 m are resolved");
+    await put(page, "#near-A", "20");
+    await follows(["near = 20.0;", "range = [20.0, 200.0]"]);
+    demand((await judged("near 20", /1 passed/)) === 0, "they are not from 20 m on");
+    await page.fill("#need", (await page.inputValue("#need")).replace("separation = 0.02", "separation = \"1 mm\""));
+    await judged("1 mm", /1 failed/);
+    await put(page, "#near-A", "0.5");
+    demand((await page.inputValue("#need")).includes("near = 20.0; ") && (await judged("near 0.5", /1 failed/)) === 1, "what was written is lost");
+    await page.fill("#need", "cameras = { a = { near = 1; far = 10; maping = \"d3d\"; }; };");
+    demand((await judged("a word that is none", /maping/)) === 2, "it is judged");
+    await page.locator("#own-need").click();
+    await follows(["near = 0.5;"]);
+    await judged("again", /1 failed/);
+    await close(page);
+}
+
 export async function controls() {
     await test("each control of both set-ups: table, sentence and letter are those of the command", async () => {
         for (const which of [0, 1])
@@ -308,6 +346,7 @@ export async function controls() {
         return `${QUESTIONS.length} fields`;
     });
     await test("code in the language of the engine's users, to paste", codeOfEngines);
+    await test("a requirement file, judged as check judges it", requirements);
     await test("a link holds what differs, Back and Forward step through changes", address);
     await test("the second picture: reversed fp32, or B; every mapping is drawn", pictures);
     await test("gap and distance are lengths that stay when the camera changes", worldIsFixed);

@@ -5,12 +5,12 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "camera/make.h"
 #include "cli/junit.h"
 #include "core/append.h"
 #include "report/number.h"
 #include "scene/cmd_scene/request.h"
 #include "scene/cmd_scene/scene.h"
+#include "solve/cmd/written.h"
 
 enum { NAME_MOST = 64, TEXT_SIZE = 512, CAMERA_SIZE = 32 };
 
@@ -45,62 +45,10 @@ void scene_junit(const scene *s, output *out) {
 
 /* ---- Requirements ------------------------------------------------------------------------------------------------ */
 
-/* A number with a point or an exponent: the file's lists want one kind. */
-static const char *real(double value, char out[NUMBER_SIZE + 2]) {
-    const number_text text = number_full(value);
-    snprintf(out, NUMBER_SIZE + 2, "%s%s", text.text, strpbrk(text.text, ".e") != NULL ? "" : ".0");
-    return out;
-}
-
-static void put_number(output *out, const char *key, double value) {
-    char text[NUMBER_SIZE + 2];
-    output_format(out, " %s = %s;", key, isinf(value) ? "\"inf\"" : real(value, text));
-}
-
-static void put_word(output *out, const char *key, const char *word) {
-    output_format(out, " %s = \"%s\";", key, word);
-}
-
-static void put_pair(output *out, const char *key, double lo, double hi) {
-    char one[NUMBER_SIZE + 2], other[NUMBER_SIZE + 2];
-    output_format(out, " %s = [%s, %s];", key, real(lo, one), real(hi, other));
-}
-
-/* The view, and how triangles are drawn; of a mapping that is not affine on the screen, none is judged. */
-static void put_view(output *out, const scene *s, const dp_triangles *t) {
-    if (t->width == 0 || s->setup.spec.model != DP_MODEL_FLOAT)
-        return;
-    output_format(out, "\n            viewport = [%d, %d];", t->width, t->height);
-    put_number(out, "fov", t->fov_y);
-    if (s->o.camera.raster != NULL)
-        put_word(out, "raster", s->o.camera.raster->name);
-    if (s->o.camera.raster == NULL || s->o.camera.raster->at_least)
-        output_format(out, " subpixel = %d;", t->subpixel);
-    output_text(out, "\n           ");
-    put_pair(out, "slant", t->slant_lo + 0.0, t->slant_hi + 0.0);
-    output_text(out, "\n            triangle = {");
-    put_number(out, "depth", t->depth);
-    put_number(out, "pixels", t->pixels);
-    put_number(out, "slim", t->slim);
-    output_text(out, " };");
-}
-
 static void put_camera(output *out, const scene *s, const dp_triangles *t) {
-    const dp_spec *spec = &s->setup.spec;
-    output_text(out, " = {");
-    put_number(out, "near", spec->znear);
-    put_number(out, "far", spec->zfar);
-    put_word(out, "mapping", dp_mapping_get(spec->mapping)->name);
-    put_word(out, "format", spec->format.name);
-    output_text(out, "\n           ");
-    put_word(out, "model", option_word("model", s->setup.shader ? DP_MODEL_FLOAT : spec->model));
-    if (camera_has(spec, CAMERA_ARITH))
-        put_word(out, "arith", dp_arith_get(spec->arith)->name);
-    put_word(out, "rounding", dp_rounding_name(spec->rounding));
-    if (camera_has(spec, CAMERA_LOG_C))
-        put_number(out, "log_c", spec->log_c);
-    put_view(out, s, t);
-    output_text(out, " };\n");
+    dp_spec spec = s->setup.spec;
+    spec.triangles = *t;
+    need_write_camera(out, &spec, dp_model_name(s->setup.shader ? DP_MODEL_FLOAT : spec.model), s->o.camera.raster);
 }
 
 /* From eyes, a pair is judged by the class of its own triangles, and so has a camera of its own. */
@@ -155,7 +103,7 @@ static void put_name(output *out, const scene_finding *f, size_t i) {
         for (size_t n = 0; n < NAME_MOST / 4 && of[n] != '\0'; n++)
             append(name, sizeof name, "%c", isascii(of[n]) && isalnum((unsigned char)of[n]) ? of[n] : '_');
     }
-    output_format(out, "  %s =\n    {", name);
+    output_format(out, "  %s =\n", name);
 }
 
 /* A comment ends with its line. */
@@ -166,16 +114,6 @@ static void put_comment(output *out, const scene_finding *f, const char *what) {
         if ((unsigned char)*c < ' ')
             *c = ' ';
     output_format(out, "  # %s%s\n", name, what);
-}
-
-static void put_need(output *out, const char *camera, double lo, double hi, double separation) {
-    put_word(out, "camera", camera);
-    if (lo < hi)
-        put_pair(out, "range", lo, hi);
-    else
-        put_number(out, "at", lo);
-    put_number(out, "separation", separation);
-    output_text(out, " };\n");
 }
 
 int scene_need(scene *s) {
@@ -201,10 +139,10 @@ int scene_need(scene *s) {
         put_comment(&out, f, "");
         put_name(&out, f, i);
         snprintf(camera, sizeof camera, has_camera(s, f) ? "scene_p%zu" : "scene", i + 1);
-        put_need(&out, camera, lo, hi, f->gap_min);
+        need_write_separation(&out, camera, lo, hi, f->gap_min);
     }
-    output_text(&out, "  # all others are at least this far apart\n  others =\n    {");
-    put_need(&out, "scene", s->setup.spec.znear, s->within, s->gap);
+    output_text(&out, "  # all others are at least this far apart\n  others =\n");
+    need_write_separation(&out, "scene", s->setup.spec.znear, s->within, s->gap);
     output_text(&out, "};\n");
     return output_close(&out);
 }
