@@ -608,6 +608,31 @@ TEST(logarithm_answers) {
     printed_free(&p);
 }
 
+/* Of near, far, format and mapping the first that the line does not give, whether a preset says it or nobody. */
+TEST(what_is_solved_for) {
+    static const char *const names[] = {"near", "far", "format", "mapping"};
+    static const char *const options[] = {"--near 0.5", "--far 5000", "--format d24", "--mapping d3d"};
+    static const char *const presets[] = {"", "--preset three", "--preset unity",
+                                          "--preset maplibre:height=800,zoom=14"};
+    for (size_t p = 0; p < sizeof presets / sizeof presets[0]; p++)
+        for (unsigned given = 0; given < 16; given++) {
+            int first = 0;
+            while (first < 4 && (given >> first & 1U) != 0)
+                first++;
+            char line[256] = "";
+            for (int i = 0; i < 4; i++)
+                if ((given >> i & 1U) != 0)
+                    snprintf(line + strlen(line), sizeof line - strlen(line), " %s", options[i]);
+            json_t *all = json_printed(-1, "solve %s%s --separation 1 --at 900", presets[p], line);
+            const char *found = json_string_value(node_at(all, "for"));
+            if (first < 4 ? found == NULL || strcmp(found, names[first]) != 0 : found != NULL)
+                fail_msg("solve %s%s: for %s, not %s", presets[p], line, found, first < 4 ? names[first] : "nothing");
+            json_decref(all);
+        }
+    check_says(2, "nothing is left to solve for", "solve --preset three %s %s %s %s --separation 1 --at 900",
+               options[0], options[1], options[2], options[3]);
+}
+
 /* Why the guarantee is not in binary32, said of what it is: an error has cells, a mapping may have no pipeline. */
 TEST(why_another_model) {
     static const char *const rows[][3] = {

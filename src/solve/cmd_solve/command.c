@@ -22,9 +22,13 @@ static bool is_logarithm(dp_mapping mapping) {
     return dp_mapping_get(mapping)->curve == DP_CURVE_LOG;
 }
 
+static bool is_given(const solve_request *o, const char *id) {
+    return option_given(o->line, id) || (o->camera.matrix.count == MATRIX_ENTRIES && strcmp(id, "format") != 0);
+}
+
+/* What a preset says is known, and may be solved for. */
 static bool is_known(const solve_request *o, const char *id) {
-    return option_given(o->line, id) || o->camera.preset_count > 0 ||
-           (o->camera.matrix.count == MATRIX_ENTRIES && strcmp(id, "format") != 0);
+    return is_given(o, id) || o->camera.preset_count > 0;
 }
 
 /* At a slant there is a guarantee of separations, and only of what is affine on the screen. */
@@ -52,7 +56,7 @@ static int check_target(const solve_request *o, solve_report *r) {
     if (r->target == SOLVE_FOR_ANY && !limited)
         r->target = SOLVE_FOR_SEPARATION;
     for (int i = 0; i < 4 && r->target == SOLVE_FOR_ANY; i++)
-        if (!is_known(o, givens[i]))
+        if (!is_given(o, givens[i]))
             r->target = (solve_target)(SOLVE_FOR_NEAR + i);
     if (r->target == SOLVE_FOR_ANY)
         return usage_error("solve: nothing is left to solve for: leave out --near, --far, --format, --mapping or "
