@@ -194,6 +194,9 @@ export async function load(from, host = () => ({})) {
 
         version: () => say("version"),
 
+        // A number at a share of an axis, as text.
+        numberAt: (lo, hi, log, share) => say("number_at", lo, hi, log ? 1 : 0, share),
+
         // A number in few digits, rounded up (1), down (-1) or to the nearest (0).
         number: (value, way) => say("number", value, way),
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What lies over a figure: a crosshair at a depth, a requirement that is dragged, what fails of it, and the curves of
 // before. Where things lie the figure says itself: its metadata hold its axes, its first clip the frame.
+import { page } from "./state.js";
+
 const SVG_NS = "http://www.w3.org/2000/svg", GRID = 1000;
 
 // { frame: { x, y, w, h }, size: [w, h], x, y }: of each axis { key, log, lo, hi, text }; null where a figure has none.
@@ -17,14 +19,9 @@ export function readFigure(svg) {
 }
 
 const shareOf = ({ log, lo, hi }, value) => (log ? Math.log(value / lo) / Math.log(hi / lo) : (value - lo) / (hi - lo));
-const valueAt = ({ log, lo, hi }, t) => (log ? lo * (hi / lo) ** t : lo + t * (hi - lo));
 const within = (t) => Math.min(Math.max(t, 0), 1);
 
-// A number of few digits as near to a share of an axis as they allow, on it.
-export function numberAt(axis, t) {
-    const value = Number(valueAt(axis, within(t)).toPrecision(3));
-    return String(value < axis.lo ? axis.lo : value > axis.hi ? axis.hi : value);
-}
+const numberAt = ({ log, lo, hi }, t) => page.engine.numberAt(lo, hi, log, within(t));
 
 export const stepAt = (axis, value) => Math.round(within(shareOf(axis, value)) * GRID);
 export const numberOfStep = (axis, step) => numberAt(axis, step / GRID);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Panels show what the commands say; and what lies over a figure.
 import { join, plain, split } from "./command.js";
-import { createOver, numberAt, readFigure, stepAt } from "./figure.js";
+import { createOver, numberOfStep, readFigure, stepAt } from "./figure.js";
 import { ask, fill, refuseSetup, take } from "./form.js";
 import { count, drawnRefusals, later, refusalOf, showKnown, showPicture, want } from "./schedule.js";
 import { sentences, sheet } from "./sheet.js";
@@ -138,7 +138,7 @@ function showGhost(one) {
 
 function crossed({ x }) {
     const z = Number(page.crossing);
-    return z < x.lo || z > x.hi ? numberAt(x, z < x.lo ? 0 : 1) : page.crossing;
+    return z < x.lo || z > x.hi ? numberOfStep(x, stepAt(x, z)) : page.crossing;
 }
 
 // The numbers of a figure, of each pixel column; they lie on the same places where its size is the same.

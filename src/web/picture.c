@@ -134,16 +134,6 @@ PAGE_EXPORT("length_step") int length_step(int which, double value) {
     return which == FAR && isfinite(value) ? (int)fmin(step_of(which, value), STEPS - 2) : step_of(which, value);
 }
 
-/** Prints a number of a figure: rounded up (1), down (-1) or to the nearest (0). */
-PAGE_EXPORT("number") void number_say(double value, int way) {
-    enum { SHOWN = 4 };
-    printf("%s", (way > 0   ? number_up(value, SHOWN)
-                  : way < 0 ? number_down(value, SHOWN)
-                            : number_of(value, SHOWN))
-                     .text);
-    fflush(NULL);
-}
-
 /* ---- The picture ------------------------------------------------------------------------------------------------- */
 
 /* Makes the picture of the first camera, format and mapping, where it can be drawn. */
