@@ -26,7 +26,7 @@ static const aim aims[AIM_COUNT] = {
     [AIM_CODE] = {"array", "<=", 2.5, "L"},
     [AIM_EYE] = {"array", "<=", 1.5, "L"},
     [AIM_WIDTH] = {"array", "<=", 3.3, "L"},
-    [AIM_SEPARATIONS] = {"separations", ">=", 4, "times one by one"},
+    [AIM_SEPARATIONS] = {"separations", ">=", 12, "times one by one"},
     [AIM_PLACES] = {"places", "<=", 1.2, "plain copies to 3 planes"},
     [AIM_NORMALS] = {"normals", "<=", 2, "L"},
     [AIM_PLACES_HALF] = {"places", "<=", 1.5, "times the row in binary32"},

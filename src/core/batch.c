@@ -172,26 +172,29 @@ static double outward(const dp_batch *b, double wide) {
 /* All at once, because many together take less; NaN beyond the planes. */
 static void run_separations(const dp_batch *b, const unsigned char *from, unsigned char *to, size_t count) {
     const dp_guarantee guarantee = dp_guarantee_make(&b->setup);
+    dp_stretches stretches;
     double z[BLOCK], found[BLOCK];
     unsigned char inside[BLOCK];
-    for (size_t i = 0; i < count; i++) {
-        z[i] = read_real(b, from + i * b->in_size);
-        inside[i] = (unsigned char)enter(b, &z[i]);
-        if (!inside[i])
-            z[i] = b->setup.spec.znear;
+    stretches.count = 0;
+    if (count >= DP_STRETCHES_PAY)
+        dp_stretches_find(&stretches, &guarantee);
+    for (size_t some = BLOCK; count > 0; count -= some, from += some * b->in_size, to += some * b->out_size) {
+        some = count < BLOCK ? count : BLOCK;
+        for (size_t i = 0; i < some; i++) {
+            z[i] = read_real(b, from + i * b->in_size);
+            inside[i] = (unsigned char)enter(b, &z[i]);
+            if (!inside[i])
+                z[i] = b->setup.spec.znear;
+        }
+        dp_guarantee_many(&guarantee, &stretches, z, found, some);
+        for (size_t i = 0; i < some; i++)
+            write_real(b, to + i * b->out_size, outward(b, inside[i] ? found[i] : (double)NAN));
     }
-    dp_guarantee_many(&guarantee, z, found, count);
-    for (size_t i = 0; i < count; i++)
-        write_real(b, to + i * b->out_size, outward(b, inside[i] ? found[i] : (double)NAN));
 }
 
 /* One by one. */
 static void run_plain(const dp_batch *b, const unsigned char *from, unsigned char *to, size_t count) {
     const dp_spec *spec = &b->setup.spec;
-    if (b->task == DP_TASK_SEPARATION) {
-        run_separations(b, from, to, count);
-        return;
-    }
     for (size_t i = 0; i < count; i++, from += b->in_size, to += b->out_size)
         switch (b->task) {
         case DP_TASK_CODE:
@@ -270,6 +273,10 @@ static size_t lead(const dp_batch *b, const void *out, size_t count) {
 void dp_batch_run(const dp_batch *batch, const void *in, void *out, size_t count) {
     const unsigned char *from = in;
     unsigned char *to = out;
+    if (batch->task == DP_TASK_SEPARATION) {
+        run_separations(batch, from, to, count);
+        return;
+    }
     double saved[BLOCK]; /* in place, what is read must outlive what is written */
     size_t some = lead(batch, out, count);
     if (some == 0)

@@ -61,7 +61,7 @@ static double moved(double z, double share) {
 }
 
 double dp_with_lattice(const dp_setup *setup, double z, double needs) {
-    if (dp_lattice_above(setup, z) <= needs)
+    if (dp_lattice_is_within(dp_lattice_rate(setup, z), z, needs))
         return needs;
     return larger(needs, isinf(z) ? HUGE_VAL : dp_lattice_exact(setup, z));
 }

@@ -345,6 +345,21 @@ static clip_steps clip_steps_of(const dp_chain *c, dp_span r) {
     clip_steps s = {.product = product_of(c, r)};
     s.before = clip_over(c, r, s.product.error);
     s.sum = add_b(c, r, s.before, &s.kept_lo, &s.kept_hi, &s.kept_one);
+    if (c->decisions != NULL) {
+        const double made[] = {s.product.error,
+                               s.product.grid,
+                               s.sum.error,
+                               s.sum.grid,
+                               s.kept_lo,
+                               s.kept_hi,
+                               s.kept_one,
+                               dp_half_ulp(s.before.most),
+                               dp_half_ulp(s.before.least),
+                               clip_of(c, r.lo) < 0.0,
+                               clip_of(c, r.hi) < 0.0};
+        for (size_t i = 0; i < sizeof made / sizeof made[0]; i++)
+            dp_decided(c, made[i]);
+    }
     return s;
 }
 
@@ -368,6 +383,8 @@ static dp_steps steps_of(const dp_chain *c, dp_span r, const clip_steps *clip) {
     if (c->two_stage)
         s.viewport = c->ranged ? ranged_viewport_of(c, q1, q2, unknown + s.inverse.error + s.quotient.error)
                                : viewport_of(q1, q2, unknown + s.inverse.error + s.quotient.error);
+    dp_decided(c, s.quotient.error), dp_decided(c, s.quotient.grid);
+    dp_decided(c, s.viewport.error), dp_decided(c, s.viewport.grid);
     const double per = c->per_ndc * c->per_clip / w;
     s.product = scaled(s.product, per);
     s.sum = scaled(s.sum, per);
@@ -404,6 +421,7 @@ dp_steps dp_chain_steps_beyond(const dp_chain *c, double z) {
               dp_half_ulp(c->ranged ? q + clip + inverse : smaller(q + clip + inverse, 1.0 - DP_UNIT_BELOW_ONE));
     }
     const double product = c->ranged ? dp_half_ulp(c->per_ndc * (q + clip + ndc)) : 0.0;
+    dp_decided(c, ndc), dp_decided(c, fabs(clip_of(c, z)) / w1 > fabs(clip_of(c, zfar)) / w2);
     dp_steps s = {.product = {c->per_ndc * clip, 0.0},
                   .quotient = {c->per_ndc * ndc + product + (c->two_stage ? DP_UNIT_BELOW_ONE : 0.0), 0.0}};
     s.full = s.product.error + s.quotient.error;
@@ -435,13 +453,6 @@ static double sum_lag(const dp_chain *c, dp_span r, magnitude clip, double kept)
     return most == least && most <= dp_half_ulp(r.lo) ? 0.0 : most + least;
 }
 
-/* A value that all multiples of a granule reach which are not below `least`. */
-static double on_lattice(double least, double granule) {
-    if (least <= 0.0)
-        return 0.0;
-    return granule > 0.0 && least < 0x1p50 * granule ? ceil(least / granule) * granule : least;
-}
-
 /* Whether t is the clip depth itself, and A <= 0. */
 static int is_plain(const dp_chain *c) {
     return c->pipeline.clip_reversed && !c->pipeline.ndc_signed;
@@ -449,12 +460,16 @@ static int is_plain(const dp_chain *c) {
 
 /* The least t of a span, as computed: that of its farthest depth, less what it may have lost. */
 static double least_of(const dp_chain *c, dp_span r, const clip_steps *clip) {
-    const double end = clip_of(c, r.hi);
-    const double t = is_plain(c) ? end : c->pipeline.clip_reversed ? r.hi + end : r.hi - end;
-    const double fuzz = (fabs(end) + r.hi) * 0x1p-52 + clip_more_over(c, r);
-    const double granule = clip_granule(c, r, clip->before);
-    const double least = on_lattice(t + clip->kept_lo - clip->product.error - fuzz,
-                                    is_plain(c) ? granule : smaller(granule, w_granule(c, r)));
+    const double of_clip = clip_granule(c, r, clip->before);
+    const double granule = is_plain(c) ? of_clip : smaller(of_clip, w_granule(c, r));
+    const double least = dp_on_lattice(
+        dp_numerator_least(c, r.hi, clip_of(c, r.hi), clip->kept_lo, clip->product.error, clip_more_over(c, r)),
+        granule);
+    if (c->decisions != NULL) {
+        c->decisions->kept_lo = clip->kept_lo;
+        c->decisions->product = clip->product.error;
+        c->decisions->granule = dp_decided(c, granule);
+    }
     return c->remap ? larger(least - add_w(c, r, clip->before, clip->product.error).error, 0.0) : least;
 }
 
@@ -501,6 +516,6 @@ dp_steps dp_chain_steps_behind(const dp_chain *c, double from, dp_span r, dp_num
         falls(c, r, &clip, numerator);
     if (from != r.lo)
         clip = clip_steps_of(c, range);
-    numerator->rise = rise_of(c, range, &clip);
+    numerator->rise = dp_decided(c, rise_of(c, range, &clip));
     return s;
 }

@@ -24,6 +24,20 @@ static inline dp_span dp_flushed_span(double z) {
 }
 
 /*
+ * All that is decided on the way to a demand, in order: binades, choices, what a format loses; and what follows from it
+ * at a depth z. guarantee_stretches.c looks for depths that share the decisions.
+ */
+enum { DP_DECISIONS = 256 };
+#define DP_SENSITIVE 0x1p20 /* up to so many |B| the window depth moves by more with z than its errors do */
+typedef struct dp_decisions {
+    double made[DP_DECISIONS];
+    int count, unknown;     /* unknown: not all of them are here */
+    double linear, falling; /* the demands as x, see distance(): that of a constant slope, and t times the other's */
+    double kept_lo, product, granule; /* of the numerator t, see dp_numerator_least() */
+    double end;                       /* no depth out of order is beyond; INFINITY: the demands alone say where */
+} dp_decisions;
+
+/*
  * The pipeline's real function g(z), with the rounded A and B that both surfaces share. Or of a run of cameras: then a
  * and b are the least that A and B are in any of them, whatever their bits, and all that follows holds in each.
  */
@@ -48,7 +62,18 @@ typedef struct dp_chain {
                             be clamped there */
     double ends[2];      /* the range, at near and at far */
     double ends_off;     /* the most that g is beside it by the roundings of the viewport's numbers */
+    dp_decisions *decisions; /* null: nobody asks for them */
 } dp_chain;
+
+static inline double dp_decided(const dp_chain *c, double what) {
+    dp_decisions *d = c->decisions;
+    if (d != NULL) {
+        d->unknown |= d->count == DP_DECISIONS;
+        if (!d->unknown)
+            d->made[d->count++] = what;
+    }
+    return what;
+}
 
 dp_chain dp_chain_make(const dp_setup *setup, const dp_pipeline *pipeline);
 
@@ -83,6 +108,21 @@ typedef struct dp_steps {
 } dp_steps;
 
 dp_steps dp_chain_steps(const dp_chain *c, dp_span span);
+
+/* A value that all multiples of a granule reach which are not below `least`. */
+static inline double dp_on_lattice(double least, double granule) {
+    if (least <= 0.0)
+        return 0.0;
+    return granule > 0.0 && least < 0x1p50 * granule ? ceil(least / granule) * granule : least;
+}
+
+/* The numerator, below, of a depth z and its clip depth, less what it may have lost. */
+static inline double dp_numerator_least(const dp_chain *c, double z, double clip, double kept_lo, double product,
+                                        double more) {
+    const int plain = c->pipeline.clip_reversed && !c->pipeline.ndc_signed;
+    const double t = plain ? clip : c->pipeline.clip_reversed ? z + clip : z - clip;
+    return t + kept_lo - product - ((fabs(clip) + z) * 0x1p-52 + more);
+}
 
 /* The errors at every depth from z on, however far: product and sum together as `product`, the rest as `quotient`. */
 dp_steps dp_chain_steps_beyond(const dp_chain *c, double z);

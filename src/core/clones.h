@@ -14,9 +14,4 @@
 #define CLONES
 #endif
 
-/* Where a vector holds several doubles, so that what is written twice for loops of them pays. */
-#if defined(__x86_64__) || defined(__aarch64__)
-#define DP_LANES
-#endif
-
 #endif

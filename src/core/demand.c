@@ -105,6 +105,8 @@ static windows windows_of(const dp_chain *c, double near, double far) {
 static int clamp_nearer(const dp_chain *c, dp_demand *d, double full2, const windows *at, double off1) {
     const double off = off1 + at->near_more;
     const int clamped = c->pipeline.reversed ? at->near + off >= c->ends[0] : at->near - off <= c->ends[0];
+    if (clamped && c->decisions != NULL)
+        c->decisions->unknown = 1;
     if (clamped)
         keep_larger(d, (c->pipeline.clip_reversed ? c->above : c->below) + full2 + d->rest,
                     fabs(c->pipeline.ortho ? c->a : c->b));
@@ -113,9 +115,12 @@ static int clamp_nearer(const dp_chain *c, dp_demand *d, double full2, const win
 
 static void clamp_farther(const dp_chain *c, dp_demand *d, double full1, const windows *at, double off2) {
     const double off = off2 + at->far_more;
-    if (c->pipeline.reversed ? at->far - off <= c->ends[1] : at->far + off >= c->ends[1])
+    const double before = d->window;
+    const int clamped = c->pipeline.reversed ? at->far - off <= c->ends[1] : at->far + off >= c->ends[1];
+    if (clamped)
         keep_larger(d, (c->pipeline.clip_reversed ? c->below : c->above) + full1 + d->rest,
                     fabs(c->pipeline.ortho ? c->a : c->b));
+    dp_decided(c, clamped), dp_decided(c, d->window != before);
 }
 
 /*
@@ -200,8 +205,18 @@ static double until_steps(const dp_numerator *n, dp_span span, double least) {
 static double format_of(const dp_chain *c, const windows *w, const dp_steps *s1, const dp_steps *s2) {
     const double error = larger(s1->full, s2->full) + larger(w->near_more, w->far_more);
     const int exact = c->two_stage && s1->viewport.error == 0.0 && s2->viewport.error == 0.0;
-    return dp_format_loss(&c->pipeline, smaller(w->near, w->far) - error, larger(w->near, w->far) + error,
-                          exact ? smaller(s1->quotient.grid, s2->quotient.grid) : 0.0);
+    return dp_decided(c, dp_format_loss(&c->pipeline, smaller(w->near, w->far) - error, larger(w->near, w->far) + error,
+                                        exact ? smaller(s1->quotient.grid, s2->quotient.grid) : 0.0));
+}
+
+/* The distance behind z, as a share of both, at which the window depth has moved by what is demanded. */
+static double share_of(const dp_chain *c, double z, double window, double slope) {
+    return window * z / (c->half * slope) * DP_OUTWARD;
+}
+
+static void keep_least(const dp_chain *c, double *least, double share) {
+    if (dp_decided(c, share < *least) != 0.0)
+        *least = share;
 }
 
 /* The demand of a depth of `first` and one of `second`, not nearer. */
@@ -219,6 +234,12 @@ static dp_demand demand_of(const dp_chain *c, const dp_steps *s1, dp_span first,
     d.rest = rest;
     clamp_farther(c, &d, s1->full, &at, s2.full);
     const dp_demand falling = demand_falling(c, first.lo, t.rise, s1, &s2, quotient);
+    if (c->decisions != NULL) {
+        dp_decided(c, falling.slope > 0.0), dp_decided(c, dp_half_ulp(second.hi));
+        keep_least(c, &c->decisions->linear, share_of(c, first.lo, d.window, d.slope));
+        keep_least(c, &c->decisions->falling,
+                   falling.slope > 0.0 ? share_of(c, first.lo, falling.window, 1.0) : HUGE_VAL);
+    }
     if (falling.window * d.slope < d.window * falling.slope)
         d = falling;
     d.until = until_steps(&t, second, s1->numerator / first.hi * (1.0 - DP_ROUNDINGS_6) - need / c->half);
@@ -251,7 +272,7 @@ static dp_demand demand_beyond(const dp_chain *c, const dp_steps *s1, dp_span fi
 static double distance(const dp_chain *c, double z, const dp_demand *d) {
     if (c->pipeline.ortho)
         return d->window / (c->half * d->slope) * DP_OUTWARD;
-    const double x = d->window * z / (c->half * d->slope) * DP_OUTWARD;
+    const double x = share_of(c, z, d->window, d->slope);
     return x < 1.0 ? z * x / (1.0 - x) * DP_OUTWARD : HUGE_VAL;
 }
 
@@ -264,6 +285,8 @@ enum { REFINED = 3 };
 static double longest_within(const dp_chain *c, const dp_steps *s1, dp_span first, dp_span second, double extra,
                              dp_demand *out, double *until) {
     double best = HUGE_VAL, last = HUGE_VAL;
+    if (c->decisions != NULL)
+        c->decisions->linear = c->decisions->falling = HUGE_VAL;
     for (int i = 0; i < REFINED; i++) {
         const dp_demand d = demand_of(c, s1, first, second, extra);
         const double s = distance(c, first.hi, &d);
@@ -273,6 +296,7 @@ static double longest_within(const dp_chain *c, const dp_steps *s1, dp_span firs
         }
         last = smaller(last, d.until);
         *until = smaller(last, first.hi + best);
+        dp_decided(c, (*until >= second.hi) + 2 * (*until < second.lo));
         if (*until >= second.hi || *until < second.lo)
             break;
         if (i > 0 && c->run) /* a camera of the run may end here, where it gains little */
@@ -313,6 +337,10 @@ double dp_demand_longest(const dp_chain *c, dp_span first, double extra, dp_dema
         return HUGE_VAL;
     const double any = distance(c, first.hi, out);
     double hi = smaller(first.hi + any, c->reach.hi);
+    const double linear_any = share_of(c, first.lo, out->window, out->slope);
+    dp_decided(c, hi == c->reach.hi), dp_decided(c, hi <= first.lo);
+    if (c->decisions != NULL)
+        c->decisions->unknown |= !(hi <= DP_SENSITIVE * fabs(c->b));
     if (hi <= first.lo)
         hi = first.hi;
     const double tiny = first.lo > 0.0 ? 0.0 : larger(0x1p-24 * larger(-first.lo, fabs(hi)), 0x1p-126);
@@ -323,6 +351,7 @@ double dp_demand_longest(const dp_chain *c, dp_span first, double extra, dp_dema
             lo = products_begin(c, lo, hi);
         if (lo < first.hi)
             lo = first.lo;
+        dp_decided(c, lo == first.lo ? 0.0 : lo);
         dp_demand d;
         double until;
         const double s = longest_within(c, &s1, first, (dp_span){lo, larger(hi, first.hi)}, extra, &d, &until);
@@ -331,8 +360,13 @@ double dp_demand_longest(const dp_chain *c, dp_span first, double extra, dp_dema
         if (met && here >= longest && here < any)
             *out = d;
         longest = larger(longest, here);
-        if (met && (first.lo == first.hi || lo <= first.lo))
+        if (met && (first.lo == first.hi || lo <= first.lo)) {
+            if (c->decisions != NULL) {
+                c->decisions->end = end;
+                keep_least(c, &c->decisions->linear, linear_any);
+            }
             return smaller(longest, any);
+        }
         hi = c->few_steps ? (double)nextafterf((float)lo, 0.0F) : lo;
     }
 }

@@ -64,10 +64,19 @@ double dp_lattice_separation(const dp_setup *setup, double z);
 /* Whether a separation behind z leaves room up to far: else nothing behind z is certain. Decided exactly. */
 int dp_is_certain(const dp_setup *setup, double z, double separation);
 
-/* dp_lattice_separation() of the model exact, whatever the set-up's; and, in a fraction of the time, what it is not
- * above. */
+/* dp_lattice_separation() of the model exact, whatever the set-up's. */
 double dp_lattice_exact(const dp_setup *setup, double z);
-double dp_lattice_above(const dp_setup *setup, double z);
+
+/*
+ * In a fraction of the time: it is not above z h/(1 - h), as dp_curve_ahead() has it, with h = z times this rate, where
+ * 1 - h does not cancel. Between two depths the rate is not above that of both.
+ */
+double dp_lattice_rate(const dp_setup *setup, double z);
+
+static inline int dp_lattice_is_within(double rate, double z, double separation) {
+    const double h = z * rate;
+    return h >= 0.0 && h < 0.5 && z * h * DP_OUTWARD <= separation * (1.0 - h);
+}
 
 /*
  * How far from itself any depth of lo..hi can lie at most once it was computed in binary32, stored and decoded: by a

@@ -32,8 +32,29 @@ double dp_guarantee_at(const dp_guarantee *g, double z);
 /* At least what the lattice alone needs: no arithmetic before it makes two surfaces easier to tell apart. */
 double dp_with_lattice(const dp_setup *setup, double z, double needs);
 
-/* dp_guarantee_at() of many depths, to the bit; of most cameras several times as fast (`make bench`: separations). */
-void dp_guarantee_many(const dp_guarantee *g, const double *z, double *separation, size_t count);
+/*
+ * Stretches of depths whose guarantees follow from a few numbers. Most perspective cameras have some; finding them
+ * takes as long as DP_STRETCHES_PAY depths one by one, or less.
+ */
+enum { DP_STRETCHES = 384, DP_STRETCH_CELLS = 1024, DP_STRETCHES_PAY = 2048 };
+typedef struct dp_stretch {
+    double from, to, linear, linear_rise, falling, falling_rise, kept_lo, product, granule, end, lattice;
+} dp_stretch;
+
+/* In order; of each cell of depths the first stretch that does not end before it. */
+typedef struct dp_stretches {
+    int count, shift;
+    uint32_t first, last; /* bits of the depths */
+    uint16_t in_cell[DP_STRETCH_CELLS + 1];
+    dp_stretch list[DP_STRETCHES + 1];
+} dp_stretches;
+
+/* Of a camera that has none there are 0: each depth is then for dp_guarantee_at(). */
+void dp_stretches_find(dp_stretches *all, const dp_guarantee *g);
+
+/* dp_guarantee_at() of many depths, to the bit, and many times as fast (`make bench`: separations). */
+void dp_guarantee_many(const dp_guarantee *g, const dp_stretches *all, const double *z, double *separation,
+                       size_t count);
 
 /*
  * Where depths are computed: a separation that is guaranteed at every binary32 depth from `nearest` to `farthest`, two

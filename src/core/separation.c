@@ -117,13 +117,10 @@ double dp_lattice_exact(const dp_setup *setup, double z) {
     return dp_curve_ahead(setup, exact_step(setup, z), setup->den, z) * dp_curve_outward(setup);
 }
 
-/* z h / (1 - h), as dp_curve_ahead() has it, where 1 - h does not cancel. */
-double dp_lattice_above(const dp_setup *setup, double z) {
+double dp_lattice_rate(const dp_setup *setup, double z) {
     if (setup->curve != DP_CURVE_PERSPECTIVE)
         return HUGE_VAL;
-    const double step = largest_code_step(setup, dp_window(setup, z) * (1.0 + 2.0 * DP_WINDOW_ERROR));
-    const double h = z * step * setup->kappa * DP_OUTWARD;
-    return h < 0.5 ? z * h / (1.0 - h) * DP_OUTWARD : HUGE_VAL;
+    return largest_code_step(setup, dp_window(setup, z) * (1.0 + 2.0 * DP_WINDOW_ERROR)) * setup->kappa * DP_OUTWARD;
 }
 
 double dp_lattice_separation(const dp_setup *setup, double z) {

@@ -366,6 +366,7 @@ TEST(known_answers) {
 TEST(what_the_lattice_is_not_above) {
     tally above = {.name = "the quick estimate is never below the separation of the lattice"};
     tally near = {.name = "nor above it by more than two steps where one is little of the depth"};
+    tally between = {.name = "nor is its rate above that of both ends of a range"};
     rng r = rng_make("lattice above");
     const uint64_t cases = test_cases(1000, 20000, 500000);
     for (uint64_t i = 0; i < cases; i++) {
@@ -376,14 +377,20 @@ TEST(what_the_lattice_is_not_above) {
         random_range(&r, &s, &lo, &hi);
         for (int k = 0; k < 20; k++) {
             const double z = fmin(fmax(probe(&r, &s, lo, hi), lo), hi);
-            const double quick = dp_lattice_above(&s, z), exactly = dp_separation(&s, z);
-            TALLY(&above, exactly <= quick, "%s: at %a: %a, estimated %a", name_of(&s), z, exactly, quick);
+            const double rate = dp_lattice_rate(&s, z), exactly = dp_separation(&s, z);
+            TALLY(&above, !dp_lattice_is_within(rate, z, nextafter(exactly, 0)), "%s: at %a: %a, rate %a", name_of(&s),
+                  z, exactly, rate);
             if (s.curve == DP_CURVE_PERSPECTIVE && exactly < 1e-3 * z)
-                TALLY(&near, quick <= 2.01 * exactly, "%s: at %a: %a, estimated %a", name_of(&s), z, exactly, quick);
+                TALLY(&near, dp_lattice_is_within(rate, z, 2.01 * exactly), "%s: at %a: %a, rate %a", name_of(&s), z,
+                      exactly, rate);
+            if (lo <= z && z <= hi)
+                TALLY(&between, rate <= fmax(dp_lattice_rate(&s, lo), dp_lattice_rate(&s, hi)), "%s: at %a: rate %a",
+                      name_of(&s), z, rate);
         }
     }
     tally_end(&above);
     tally_end(&near);
+    tally_end(&between);
 }
 
 /* Whether a limit holds is found sooner than the worst depth, and is the same answer: what it promises holds at depths

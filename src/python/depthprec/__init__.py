@@ -32,7 +32,7 @@ Decoded = _namedtuple("Decoded", "z lo hi")
 Decoded.__class_getitem__ = classmethod(lambda cls, kind: cls)  # Decoded[float] of the stubs
 Decoded.__doc__ = "Eye depths, and the ends of the cells around them: what else the surface may be at."
 
-_SLOW = dict.fromkeys(("separation", "lattice", "interval"), 1 << 13)  # elements of a block, where they take long
+_SLOW = {"separation": 1 << 17, "lattice": 1 << 13, "interval": 1 << 13}  # elements of a block, where they take long
 
 Worst = _namedtuple("Worst", "lo hi error error_z error_code interval interval_lo interval_hi interval_code blind_from "
                              "separation separation_z")
@@ -429,7 +429,7 @@ class Camera:
         kind = name, read.format, write.format
         call, in_place = self._calls.get(kind) or self._call(*kind)
         start, to, count = _arrays.places(read, write, in_place)
-        # Between blocks Ctrl-C is heard: at most some milliseconds each.
+        # Between blocks Ctrl-C is heard: at most some hundredths of a second each.
         block = _SLOW.get(name, 1 << 18)
         if run and count <= block:
             call(start, to, count)

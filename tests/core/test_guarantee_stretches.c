@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * The guarantee of many depths at once is that of each alone, to the bit: dp_separation(), whose operations those of
- * vectors repeat, and which test_reference and test_guarantee judge.
+ * The guarantee of many depths at once is that of each alone, to the bit: dp_separation(), which test_reference and
+ * test_guarantee judge.
  */
 #include <float.h>
 
+#include "core/bits.h"
+#include "core/demand.h"
 #include "core/guarantee.h"
 #include "depthprec/depthprec.h"
 #include "support.h"
 
 static const char *const formats[] = {"fp32",    "unorm24",  "unorm16",  "fp16",      "unorm8",    "unorm20",
                                       "unorm32", "float5.9", "float8.7", "float6.23", "float7.12", "unorm23"};
-enum { FORMATS = sizeof formats / sizeof formats[0], COUNT = 1000 };
+enum { FORMATS = sizeof formats / sizeof formats[0], COUNT = 10000 };
 
 static int make(dp_setup *setup, const char *name, dp_spec spec) {
     dp_format f[2];
@@ -23,8 +25,10 @@ static int make(dp_setup *setup, const char *name, dp_spec spec) {
 
 static void compare(tally *t, const dp_setup *s, const double *z, size_t count) {
     static double got[COUNT];
+    static dp_stretches stretches;
     const dp_guarantee g = dp_guarantee_make(s);
-    dp_guarantee_many(&g, z, got, count);
+    dp_stretches_find(&stretches, &g);
+    dp_guarantee_many(&g, &stretches, z, got, count);
     for (size_t i = 0; i < count; i++) {
         const double want = dp_separation(s, z[i]);
         TALLY(t, memcmp(&got[i], &want, sizeof want) == 0, "%s %s %s near %.17g far %.17g z %.17g: %.17g, alone %.17g",
@@ -51,7 +55,7 @@ static double some_depth(rng *r, const dp_setup *s) {
     return fmax(n, fmin(z, f));
 }
 
-/* Cameras of any planes. What the vectors leave to dp_guarantee_at() is among them: it has to be told apart. */
+/* Cameras of any planes. What is left to dp_guarantee_at() is among them: it has to be told apart. */
 TEST(test_random) {
     static double z[COUNT];
     tally t = {.name = "random cameras"};
@@ -71,7 +75,7 @@ TEST(test_random) {
         spec.mapping = (dp_mapping)rng_below(&r, 4);
         spec.rounding = (dp_rounding)rng_below(&r, DP_ROUNDING_COUNT);
         const uint64_t format = rng_below(&r, 3) != 0 ? rng_below(&r, 4) : rng_below(&r, FORMATS);
-        const size_t count = 1 + (size_t)rng_below(&r, i % 10 == 0 ? COUNT : 200);
+        const size_t count = 1 + (size_t)rng_below(&r, i % 10 == 0 ? 1000 : 200);
         if (!make(&s, formats[format], spec))
             continue;
         for (size_t k = 0; k < count; k++)
@@ -111,7 +115,51 @@ TEST(test_neighbours) {
     tally_end(&t);
 }
 
-/* What has no vectors: it is done, too. */
+/* What is decided on the way to the guarantee of a depth, as one number. */
+static uint64_t decided(const dp_guarantee *g, uint32_t bits) {
+    dp_decisions d = {.count = 0};
+    dp_demand ignored;
+    dp_chain c = g->chain;
+    uint64_t sum = 0;
+    c.decisions = &d;
+    dp_demand_longest(&c, (dp_span){(double)dp_float32(bits), (double)dp_float32(bits)}, 0.0, &ignored);
+    for (int i = 0; i < d.count; i++)
+        sum = sum * 6364136223846793005U + dp_bits64(d.made[i]);
+    return sum;
+}
+
+/* Where a decision changes between two depths, and on both sides of it. */
+TEST(test_borders) {
+    enum { SIDE = COUNT / 2 };
+    static double z[COUNT];
+    tally t = {.name = "borders"};
+    rng r = rng_make("borders");
+    const uint64_t cameras = test_cases(20, 150, 10000);
+    for (uint64_t i = 0; i < cameras; i++) {
+        dp_spec spec = dp_spec_default();
+        dp_setup s;
+        spec.znear = rng_log(&r, 1e-3, 10);
+        spec.zfar = spec.znear * rng_log(&r, 10, 1e6);
+        spec.mapping = (dp_mapping)rng_below(&r, 4);
+        assert_true(make(&s, formats[rng_below(&r, 4)], spec));
+        const dp_guarantee g = dp_guarantee_make(&s);
+        const uint32_t near = dp_bits32(dp_float_up(spec.znear)), far = dp_bits32(dp_float_down(spec.zfar));
+        for (int border = 0; border < 4; border++) {
+            uint32_t low = near + (uint32_t)rng_below(&r, far - near), high = low;
+            high += (uint32_t)rng_below(&r, far - high < 1U << 22 ? far - high + 1 : 1U << 22);
+            while (high - low > 1) {
+                const uint32_t middle = low + (high - low) / 2;
+                *(decided(&g, middle) == decided(&g, low) ? &low : &high) = middle;
+            }
+            for (uint32_t k = 0; k < COUNT; k++)
+                z[k] = fmax(spec.znear, fmin((double)dp_float32(low - SIDE + k), spec.zfar));
+            compare(&t, &s, z, COUNT);
+        }
+    }
+    tally_end(&t);
+}
+
+/* What is done one by one is done, too. */
 TEST(test_others) {
     static double z[COUNT];
     tally t = {.name = "others"};
