@@ -3,7 +3,7 @@
 # The page in a browser (make check-web): Chromium without a window, driven by playwright-core, judged by axe-core.
 # Both are npm's packages, pinned by version and digest in tests/web/package-lock.json; nothing of them is run on install.
 # It takes a minute, all with DEPTHPREC_FULL: then what is seen of the page is left in $B/web/shots.
-# ONLY=agrees,figures,redraw,controls,gpu,image,people,bad,shots,states takes a part.
+# ONLY=agrees,figures,redraw,controls,gpu,image,people,bad,shots,walks,states takes a part.
 . tests/tap.sh
 addresses=100000
 [ -z "${DEPTHPREC_FULL-}" ] || addresses=1000000

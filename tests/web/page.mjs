@@ -12,12 +12,13 @@ import { people } from "./page_people.mjs";
 import { redraw } from "./page_redraw.mjs";
 import { shots } from "./page_shots.mjs";
 import { states } from "./page_states.mjs";
+import { walks } from "./page_walks.mjs";
 import { seed } from "./states.mjs";
 import { demand, finish, test } from "./tap.mjs";
 
 const full = Boolean(process.env.DEPTHPREC_FULL);
-const parts = { agrees, figures, redraw, controls, gpu, image, people, bad, shots, states: () => states(seed(), full ? 1 : 0.1) };
-const only = process.env.ONLY?.split(",") ?? (full ? Object.keys(parts) : ["agrees", "figures", "bad", "gpu", "image", "states"]);
+const parts = { agrees, figures, redraw, controls, gpu, image, people, bad, shots, walks, states: () => states(seed(), full ? 1 : 0.1) };
+const only = process.env.ONLY?.split(",") ?? (full ? Object.keys(parts) : ["agrees", "figures", "bad", "gpu", "image", "walks", "states"]);
 for (const name of only) await parts[name]();
 await test("nothing was said on the console", () => demand(said.length === 0, [...new Set(said)].slice(0, 20).join("\n")));
 await test("nothing but the page itself was asked for", () => demand(asked.length === 0, asked.join("\n")));

@@ -85,7 +85,7 @@ const DIVISIONS = { "": (z, w) => fround(z / w), reciprocal: (z, w) => fround(z 
 const CODES = { exact: (d) => Math.floor(d * 65535 + 0.5), even: (d) => even(fround(d * 65535)), zero: (d) => Math.trunc(fround(d * 65535)) };
 const ROWS = { ieee: ["", "exact"], reciprocal: ["reciprocal", "exact"], product: ["", "even"], mesa: ["reciprocal", "even"], softpipe: ["reciprocal", "zero"] };
 
-async function measure(page) {
+export async function measure(page) {
     await page.evaluate(() => (navigator.clipboard.writeText = async (text) => void (window.copied = text)));
     await page.locator("#measure").click();
     await page.waitForFunction(() => !document.querySelector("#measure").disabled, null, { timeout: LIMIT });
@@ -144,7 +144,7 @@ async function read({ text, found }) {
 }
 
 // Where a recorded profile differs from this one, by the files: what a device calls its formats is its own.
-function differences(known, { findings }) {
+export function differences(known, { findings }) {
     const words = ({ key, found, sure, value }) => (sure === "measured" ? value : key === "stored" ? found.replace(/^\S+: /, "") : found);
     const near = (a, b) => (typeof a === "number" ? Math.abs(a - b) < 0.005 * a : a === b), seen = new Set();
     return known.findings.flatMap((one) => {

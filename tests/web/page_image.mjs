@@ -11,7 +11,7 @@ import { demand, test } from "./tap.mjs";
 
 const WIDTH = 37, HEIGHT = 23;
 const folder = mkdtempSync(join(tmpdir(), "depthprec-"));
-const put = (name, bytes) => (writeFileSync(join(folder, name), bytes), join(folder, name));
+export const put = (name, bytes) => (writeFileSync(join(folder, name), bytes), join(folder, name));
 
 // Window depths of a slope with waves, near 0.3 and far 100; reversed or not.
 const depthAt = (x, y, reversed) => {
@@ -43,7 +43,7 @@ function chunk(name, content) {
 const paeth = (a, b, c) => [a, b, c].reduce((best, one) => (Math.abs(a + b - c - one) < Math.abs(a + b - c - best) ? one : best));
 
 // Its rows have the filters 0 to 4 in turn. The depth is in the first channel, or in all three of colours but where they differ.
-function png(values, { bits = 16, colour = 0, interlaced = 0, cut = 0, tint = 0 } = {}) {
+export function png(values, { bits = 16, colour = 0, interlaced = 0, cut = 0, tint = 0 } = {}) {
     const channels = [1, 0, 3, 1, 2, 0, 4][colour], same = channels > 2 && tint === 0 ? 3 : 1, step = (channels * bits) / 8, rows = [];
     for (let y = 0, above = Buffer.alloc(WIDTH * step); y < HEIGHT; y++) {
         const row = Buffer.alloc(WIDTH * step), filtered = [y % 5];
