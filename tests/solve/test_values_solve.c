@@ -399,6 +399,41 @@ static void want_solve(values *v, const solve_case *c) {
     check_order(c, others);
 }
 
+/* An answer with the planes that were given is called the cheapest that does where no alternative with them that does
+ * costs less. */
+TEST(the_cheapest_is_called_so) {
+    rng r = rng_make(__func__);
+    tally t = {.name = "cheapest"};
+    int seen[2] = {0};
+    for (uint64_t n = test_cases(12, 40, 400); n > 0; n--) {
+        char line[160];
+        const char *target = rng_below(&r, 2) == 0 ? "format" : "mapping";
+        const double limit = rng_log(&r, 1e-5, 1), at = rng_log(&r, 1, 1000);
+        snprintf(line, sizeof line, "solve -n 0.1 -f 4000 --for %s --separation %.3g --at %.3g", target, limit, at);
+        printed p = print_of("%s", line);
+        json_t *told = json_printed(p.status, "%s", line);
+        const json_t *others = json_object_get(told, "alternatives");
+        const dp_setup answer = setup_of(json_object_get(told, "answer"));
+        const cost price = cost_of(&answer.spec.format, answer.spec.mapping);
+        bool cheapest = flag_at(told, "possible") && json_array_size(others) > 0;
+        for (size_t i = 0; i < json_array_size(others); i++) {
+            const json_t *other = json_array_get(others, i);
+            const dp_setup x = setup_of(other);
+            const cost its = cost_of(&x.spec.format, x.spec.mapping);
+            const bool as_given = x.spec.znear == 0.1 && x.spec.zfar == 4000;
+            cheapest = cheapest && !(flag_at(other, "possible") && as_given && cost_compare(&its, &price) < 0);
+        }
+        const char *word = strstr(p.out, "cheapest"), *list = strstr(p.out, "Alternatives, cheapest first");
+        const bool said = word != NULL && (list == NULL || word < list);
+        seen[said]++;
+        TALLY(&t, said == cheapest, "%s: %d, and not %d: %.80s", line, said, cheapest, p.out);
+        json_decref(told);
+        printed_free(&p);
+    }
+    assert_true(seen[0] > 0 && seen[1] > 0);
+    tally_end(&t);
+}
+
 /* ---- CSV and text ------------------------------------------------------------------------------------------------ */
 
 static void check_lines(const values *v, int status, const char *arguments) {
