@@ -208,6 +208,8 @@ static const shown_bound of_table[] = {{"worst error ", 0, WORST "error", 6, UP,
 static const shown_bound of_choice[] = {{" % more than the lattice", -1, SHARE, 3, UP, 100, 0},
                                         {" times the lattice", -1, SHARE, 3, UP, 1, 1},
                                         {NULL, 0, NULL, 0, EITHER, 0, 0}};
+static const shown_bound of_method[] = {{" of it: bound ", 0, "setups[0].claim", 3, UP, 0, 0},
+                                        {NULL, 0, NULL, 0, EITHER, 0, 0}};
 static const shown_bound of_lookup[] = {{OF_DEPTH, 3, ROW "cell_lo", 9, DOWN, 0, 0},
                                         {OF_DEPTH, 4, ROW "cell_hi", 9, UP, 0, 0},
                                         {NULL, 0, NULL, 0, EITHER, 0, 0}};
@@ -233,7 +235,7 @@ static const shown_bound of_reversed[] = {{"D3DRS_DEPTHBIAS = ", 0, "setups[0].r
 TEST(commands) {
     tally t = {.name = "table, budget, zfight, world, texture, bias"};
     rng r = rng_make("outward commands");
-    uint64_t numbers[9] = {0};
+    uint64_t numbers[10] = {0};
     for (uint64_t i = test_cases(20, 60, 1000); i > 0; i--) {
         const double n = rng_log(&r, 0.01, 10), f = n * rng_log(&r, 100, 1e6), z = n * rng_log(&r, 1, f / n);
         const dp_format_row *format = dp_format_get((size_t)rng_below(&r, dp_format_count()));
@@ -259,9 +261,11 @@ TEST(commands) {
             f, format->format.name);
         TRY(8, of_reversed, "bias -q --api d3d9 --separation %.9g --at %.9g -n %.9g -f %.9g -F %s -m reversed",
             1e-3 * z, z, n, f, format->format.name);
+        TRY(9, of_method, "table -q --tolerance %.3g --at %.9g -n %.9g -f %.9g -F unorm24 -m d3d",
+            rng_log(&r, 1e-3, 0.5), z, n, f);
         TRY(6, of_effect, "texture -q --product effect:intersection --at %.9g %s", z, camera);
     }
-    for (int k = 0; k < 9; k++)
+    for (int k = 0; k < 10; k++)
         TALLY(&t, numbers[k] >= 8, "few numbers of line %d: %llu", k, (unsigned long long)numbers[k]);
     tally_end(&t);
 }
