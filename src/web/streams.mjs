@@ -68,7 +68,7 @@ export function apart(module) {
         while (module[at++] > 127);
         inside();
     });
-    return Buffer.from([...new Uint8Array(Uint32Array.of(module.length, ...streams.map(({ length }) => length)).buffer), ...streams.flat()]);
+    return Uint8Array.from([...new Uint8Array(Uint32Array.of(module.length, ...streams.map(({ length }) => length)).buffer), ...streams.flat()]);
 }
 
 export function together(bytes) {
