@@ -95,9 +95,19 @@ DP_API dp_status dp_batch_init(dp_batch *batch, const dp_setup *setup, dp_task t
  * @param out  codes, or depths; the same address as `in` is allowed where an element written is not larger than one
  *             read. Any other overlap is not.
  *
- * Cost: one thread, no allocation, some 24 KiB of stack.
+ * Cost: one thread, no allocation, some 24 KiB of stack, for separations 56.
  */
 DP_API void dp_batch_run(const dp_batch *batch, const void *in, void *out, size_t count);
+
+/** What dp_batch_keep() takes, in bytes. */
+#define DP_BATCH_KEEP 40960
+
+/**
+ * Finds once what dp_batch_run() otherwise finds in each call that asks for thousands of separations, and too late for
+ * fewer. It takes as long as a thousand of them one by one. Nothing of other tasks, and results stay the same.
+ * @param memory  DP_BATCH_KEEP bytes, aligned as a double, that live as long as the batch and its copies
+ */
+DP_API void dp_batch_keep(dp_batch *batch, void *memory);
 
 /**
  * Window depths, as they are read back from a buffer or an image, to eye depths. Each counts as the nearest code,

@@ -172,11 +172,12 @@ static double outward(const dp_batch *b, double wide) {
 /* All at once, because many together take less; NaN beyond the planes. */
 static void run_separations(const dp_batch *b, const unsigned char *from, unsigned char *to, size_t count) {
     const dp_guarantee guarantee = dp_guarantee_make(&b->setup);
+    const dp_stretches *kept = dp_batch_read(b)->kept;
     dp_stretches stretches;
     double z[BLOCK], found[BLOCK];
     unsigned char inside[BLOCK];
     stretches.count = 0;
-    if (count >= DP_STRETCHES_PAY)
+    if (kept == NULL && count >= DP_STRETCHES_PAY)
         dp_stretches_find(&stretches, &guarantee);
     for (size_t some = BLOCK; count > 0; count -= some, from += some * b->in_size, to += some * b->out_size) {
         some = count < BLOCK ? count : BLOCK;
@@ -186,7 +187,7 @@ static void run_separations(const dp_batch *b, const unsigned char *from, unsign
             if (!inside[i])
                 z[i] = b->setup.spec.znear;
         }
-        dp_guarantee_many(&guarantee, &stretches, z, found, some);
+        dp_guarantee_many(&guarantee, kept != NULL ? kept : &stretches, z, found, some);
         for (size_t i = 0; i < some; i++)
             write_real(b, to + i * b->out_size, outward(b, inside[i] ? found[i] : (double)NAN));
     }
@@ -268,6 +269,16 @@ static size_t lead(const dp_batch *b, const void *out, size_t count) {
     const size_t bytes = (LINE - (uintptr_t)out % LINE) % LINE;
     const size_t some = bytes % b->out_size == 0 ? bytes / b->out_size : 0;
     return some < count ? some : 0;
+}
+
+_Static_assert(sizeof(dp_stretches) <= DP_BATCH_KEEP, "DP_BATCH_KEEP is too small");
+
+void dp_batch_keep(dp_batch *batch, void *memory) {
+    const dp_guarantee guarantee = dp_guarantee_make(&batch->setup);
+    if (batch->task != DP_TASK_SEPARATION)
+        return;
+    dp_stretches_find(memory, &guarantee);
+    dp_batch_write(batch)->kept = memory;
 }
 
 void dp_batch_run(const dp_batch *batch, const void *in, void *out, size_t count) {

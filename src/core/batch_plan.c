@@ -354,6 +354,7 @@ void dp_batch_plan(dp_batch *b, dp_batch_kernel *const *table) {
     plan_format(b);
     dp_batch_write(b)->doubt = 0;
     dp_batch_write(b)->direct = 0;
+    dp_batch_write(b)->kept = NULL;
     dp_batch_write(b)->kernel = general_kernel(b);
     if (dp_batch_write(b)->kernel == DP_KERNEL_NONE)
         return;

@@ -58,6 +58,7 @@ typedef struct DP_BATCH_ALIAS dp_batch_numbers {
 typedef struct DP_BATCH_ALIAS dp_batch_own {
     int kernel, direct;
     int32_t doubt;
+    const void *kept; /* by dp_batch_keep(), or null */
     dp_batch_numbers numbers;
 } dp_batch_own;
 

@@ -119,7 +119,7 @@ DP_INLINE double last_behind(const dp_chain *c, const dp_stretch *s, double z) {
     const double margin = 0x1p-44, on = z - s->from;
     const double t = dp_on_lattice(dp_numerator_least(c, z, c->a * z + c->b, s->kept_lo, s->product, 0.0), s->granule);
     const double linear = s->linear + s->linear_rise * on, falling = s->falling + s->falling_rise * on;
-    const double x = linear * t > falling ? falling / t : linear;
+    const double x = smaller(linear, falling / t);
     const double end = z + z * x / (1.0 - x) * DP_OUTWARD;
     if (!(x < 0.75))
         return (double)NAN;

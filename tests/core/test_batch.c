@@ -546,6 +546,42 @@ TEST(test_threads) {
     free(got);
 }
 
+/* What a batch keeps changes no result, of as many elements as pay for it in one call or not, and nothing of others. */
+TEST(test_kept) {
+    enum { MANY = 5000 };
+    static const int counts[] = {1, 200, MANY};
+    static double memory[DP_BATCH_KEEP / sizeof(double)], z[MANY], want[MANY], got[MANY];
+    tally t = {.name = "kept"};
+    rng r = rng_make("kept");
+    for (int c = 0; c < CAMERAS; c++)
+        for (int f = 0; f < 4; f++) {
+            const dp_setup exact = make(&cameras[c], formats[f], DP_ROUND_NEAREST, DP_MODEL_EXACT);
+            const dp_setup s = dp_setup_guaranteed(&exact);
+            dp_batch b;
+            assert_int_equal(dp_batch_init(&b, &s, DP_TASK_SEPARATION, DP_REAL_DOUBLE, DP_WORD_32, dp_path_best()),
+                             DP_OK);
+            for (int i = 0; i < MANY; i++)
+                z[i] = any_depth(&r, &s, 0);
+            for (int i = 0; i < MANY; i++)
+                dp_batch_run(&b, &z[i], &want[i], 1);
+            for (int kept = 0; kept < 2; kept++) {
+                for (int k = 0; k < 3; k++) {
+                    dp_batch_run(&b, z, got, (size_t)counts[k]);
+                    TALLY(&t, memcmp(got, want, (size_t)counts[k] * sizeof *got) == 0, "%s: %d elements, kept %d",
+                          label(&b), counts[k], kept);
+                }
+                dp_batch_keep(&b, memory);
+            }
+        }
+    dp_batch other;
+    const dp_setup s = make(&cameras[0], "unorm24", DP_ROUND_NEAREST, DP_MODEL_FLOAT);
+    assert_int_equal(dp_batch_init(&other, &s, DP_TASK_WINDOW, DP_REAL_DOUBLE, DP_WORD_32, dp_path_best()), DP_OK);
+    const dp_batch before = other;
+    dp_batch_keep(&other, memory);
+    assert_memory_equal(&other, &before, sizeof other);
+    tally_end(&t);
+}
+
 TEST(test_door) {
     const dp_setup s = make(&cameras[0], "unorm24", DP_ROUND_NEAREST, DP_MODEL_EXACT);
     dp_batch b;

@@ -32,7 +32,7 @@ Decoded = _namedtuple("Decoded", "z lo hi")
 Decoded.__class_getitem__ = classmethod(lambda cls, kind: cls)  # Decoded[float] of the stubs
 Decoded.__doc__ = "Eye depths, and the ends of the cells around them: what else the surface may be at."
 
-_SLOW = {"separation": 1 << 17, "lattice": 1 << 13, "interval": 1 << 13}  # elements of a block, where they take long
+_SLOW = {"separation": 1 << 16, "lattice": 1 << 13, "interval": 1 << 13}  # elements of a block, where they take long
 
 Worst = _namedtuple("Worst", "lo hi error error_z error_code interval interval_lo interval_hi interval_code blind_from "
                              "separation separation_z")
@@ -394,7 +394,7 @@ class Camera:
 
     def _call(self, name, read, write):
         """What a method asks of the library, made once for elements of one format and those of another: a function of
-        their addresses and count, and whether it works in place."""
+        their addresses and count, whether it works in place, and whether _keep() makes it faster."""
         codes = self._written(name, read)
         if _arrays.KINDS.get(write, "?") not in codes:
             raise TypeError("out must have elements of type '%s', got '%s'" % ("' or '".join(codes), write))
@@ -415,8 +415,17 @@ class Camera:
             batch = _core.Batch()
             _core.demand(_core.batch_init(batch, setup, _core.TASK[task], real, word, _core.path_best()))
             call = _partial(_core.batch_run, _ctypes.byref(batch))
-        made = self._calls[name, read, write] = call, not windows and name not in Decoded._fields
+        made = self._calls[name, read, write] = call, not windows and name not in Decoded._fields, name == "separation"
         return made
+
+    def _keep(self, kind):
+        """The function of such a call, with what many elements need. Others may run the one before meanwhile."""
+        call, in_place, _ = self._calls[kind]
+        batch, memory = _core.Batch.from_buffer_copy(call.args[0]._obj), (_ctypes.c_double * (_core.KEEP // 8))()
+        _core.batch_keep(batch, memory)
+        batch.memory = memory
+        self._calls[kind] = _partial(_core.batch_run, _ctypes.byref(batch)), in_place, False
+        return self._calls[kind][0]
 
     def _fill(self, name, values, read, out, run=True):
         """`out`, or new memory of the kind of `values`, with what a method makes of `read`."""
@@ -427,8 +436,10 @@ class Camera:
         if write.readonly or not write.c_contiguous:
             raise ValueError("out must be contiguous memory that can be written")
         kind = name, read.format, write.format
-        call, in_place = self._calls.get(kind) or self._call(*kind)
+        call, in_place, keeps = self._calls.get(kind) or self._call(*kind)
         start, to, count = _arrays.places(read, write, in_place)
+        if keeps and count > 99:
+            call = self._keep(kind)
         # Between blocks Ctrl-C is heard: at most some hundredths of a second each.
         block = _SLOW.get(name, 1 << 18)
         if run and count <= block:
@@ -458,7 +469,7 @@ class Camera:
     def _number(self, name, value, read=_ctypes.c_double, write=_ctypes.c_double):
         got = write()
         kind = name, read._type_, write._type_
-        call, _ = self._calls.get(kind) or self._call(*kind)
+        call, _, _ = self._calls.get(kind) or self._call(*kind)
         call(_ctypes.byref(read(value)), _ctypes.byref(got), 1)
         return got.value
 

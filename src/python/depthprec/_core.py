@@ -81,6 +81,8 @@ anchor_get = _function("dp_anchor_get", POINTER(AnchorRow), c_int)
 path_best = _function("dp_path_best", c_int)
 batch_init = _function("dp_batch_init", c_int, POINTER(Batch), POINTER(Setup), c_int, c_int, c_int, c_int)
 batch_run = _function("dp_batch_run", None, POINTER(Batch), c_void_p, c_void_p, c_size_t)
+batch_keep = _function("dp_batch_keep", None, POINTER(Batch), c_void_p)
+KEEP = 40960  # DP_BATCH_KEEP
 batch_windows = _function("dp_batch_windows", c_int, POINTER(Setup), c_int, c_void_p, c_void_p, c_void_p, c_void_p,
                           c_size_t)
 worst_over = _function("dp_worst_over", c_int, POINTER(Setup), c_double, c_double, POINTER(Worst))
