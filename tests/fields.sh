@@ -76,6 +76,21 @@ all_named bias -F unorm24 -m d3d --at 10 --remedy ray:0.1 --slope 0.1
 all_named world
 all_named world --from-origin 1km,1e6m
 all_named budget --at 10 --from-origin 1e5 --scheme split
+verdicts() { # verdicts COUNT COMMAND ARGUMENTS...: those that the text does not have, or how many there are
+    count=$1
+    shift
+    "$DEPTHPREC" "$@" | tr -s ' \n' ' ' >"$scratch/text"
+    "$DEPTHPREC" "$@" --json | jq -r '.. | objects | .verdict? // empty' >"$scratch/verdicts"
+    while read -r verdict; do
+        grep -qF -e "$verdict" "$scratch/text" || echo "$verdict"
+    done <"$scratch/verdicts"
+    [ "$(wc -l <"$scratch/verdicts")" -eq "$count" ] || cat "$scratch/verdicts"
+}
+for words in '1 solve -f 1000 -F unorm24 -m d3d --separation 1cm --at 100m' '1 solve --for frusta -n 0.1 -f 1e6 -F d24 -m d3d --separation 1' \
+    '2 zfight -n 1 -f 1.5 -F unorm16 -m d3d,reversed --sample 100 --separation 0.01' '1 zfight -n 1 -f 1.5 -F unorm16 -m d3d --rasterize --sample 10' \
+    '2 prepass -F unorm16,fp32 -m d3d --sample 1000' '1 scene tests/models/street.obj --separation 0.02' '7 check tests/needs/village.need'; do
+    check "JSON has the verdicts of the text: $words" empty verdicts $words
+done
 section probe | sort -u >"$scratch/known_probe"
 profile_fields() { # what of a profile is not in the page, or that it is none
     jq -r '[.. | objects | keys[]] | unique[]' "$1" | sort -u >"$scratch/keys"

@@ -2,6 +2,7 @@
 #define _GNU_SOURCE /* nftw() */
 #include "printed.h"
 
+#include <ctype.h>
 #include <ftw.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -173,7 +174,18 @@ values values_of(const char *line) {
 void values_free(values *v) {
     free(v->items);
     free(v->table);
+    free(v->told);
     *v = (values){0};
+}
+
+void values_tell(values *v, int status, const char *arguments) {
+    char *const text = output_of(status, arguments, ""), *to = text;
+    for (const char *at = text; *at != '\0'; at++)
+        if (!isspace((unsigned char)*at) || (to > text && to[-1] != ' '))
+            *to++ = isspace((unsigned char)*at) ? ' ' : *at;
+    *to = '\0';
+    free(v->told);
+    v->told = text;
 }
 
 void values_under(values *v, const char *format, ...) {
@@ -406,6 +418,13 @@ bool flag_at(const json_t *root, const char *format, ...) {
 
 static void leaf(values *v, tally *t, const char *path, const json_t *j) {
     wanted *want = value_find(v, path);
+    const char *const key = strrchr(path, '.');
+    if (want == NULL && v->told != NULL && strcmp(key != NULL ? key + 1 : path, "verdict") == 0) {
+        const char *const verdict = json_string_value(j);
+        TALLY(t, verdict != NULL && *verdict != '\0' && strstr(v->told, verdict) != NULL, "%s: text does not say '%s'",
+              path, verdict);
+        return;
+    }
     if (want == NULL || want->derived) {
         TALLY(t, false, "%s: no test computes this field", path);
         return;
@@ -461,6 +480,8 @@ void check_json_text(values *v, const char *text) {
 
 void check_json(values *v, int status, const char *arguments) {
     char *text = output_of(status, arguments, "--json");
+    if (strstr(text, "\"verdict\":") != NULL)
+        values_tell(v, status, arguments);
     check_json_text(v, text);
     free(text);
 }

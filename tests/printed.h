@@ -88,11 +88,16 @@ typedef struct values {
     char prefix[PATH_SIZE];
     char command[16];
     char unit[16]; /**< of the scene, for want_setup(); "": not known */
+    char *told;    /**< the text of the command, its words parted by one blank; null: not known */
 } values;
 
 /** Nothing but schema, version and command, which is the line's first word; its unit. values_free() when done. */
 values values_of(const char *line);
 void values_free(values *v);
+
+/** Runs it as text: each verdict of JSON that is not wanted itself must be a sentence of it. check_json() does so, too.
+ */
+void values_tell(values *v, int status, const char *arguments);
 
 /** Stands before the fields that follow; "" for the top. */
 void values_under(values *v, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -107,6 +107,21 @@ static void json_value(json_walk *w, const column *c, const void *item) {
         output_text(w->out, "null");
 }
 
+/* The first sentence that text has from the margin on: it marks them, see output.h. */
+static void json_verdict(json_walk *w, void (*head)(page *p, void *item), void *item) {
+    static output text;
+    text = (output){.fd = -1, .width = OUTPUT_UNLIMITED, .cells = true};
+    page p = page_start(&text, 0);
+    head(&p, item);
+    output_char(&text, '\0');
+    char *const from = strchr(text.buffer, OUTPUT_SENTENCE);
+    char *const end = from != NULL ? strchr(from + 1, OUTPUT_SENTENCE) : NULL;
+    if (end != NULL) {
+        *end = '\0';
+        json_word(w, "verdict", from + 1);
+    }
+}
+
 static void json_columns(json_walk *w, const column *c, void *item);
 
 static void json_part(json_walk *w, const column *c, void *item) {
@@ -129,6 +144,8 @@ static void json_list(json_walk *w, const column *c, void *item) {
     json_open(w, c->key, "[");
     for (size_t i = 0; (inner = c->get(item, i)) != NULL; i++) {
         json_open(w, NULL, "\n{");
+        if (c->verdict)
+            json_verdict(w, c->head, inner);
         json_columns(w, c->columns, inner);
         json_close(w, '}');
     }
@@ -156,6 +173,8 @@ void report_json(const report_spec *spec, output *out) {
     json_word(&w, "version", dp_version());
     if (out->measured != NULL)
         json_word(&w, "measured", out->measured);
+    if (spec->verdict)
+        json_verdict(&w, spec->head, spec->item);
     json_columns(&w, spec->columns, spec->item);
     output_text(out, "}\n");
 }

@@ -34,6 +34,7 @@ typedef enum output_form { FORM_TEXT = 0, FORM_JSON, FORM_CSV } output_form;
 /** Whether text is dressed for a terminal: where it is one and NO_COLOR is not set, always, or never. */
 typedef enum output_colour { OUTPUT_COLOUR_AUTO = 0, OUTPUT_COLOUR_ALWAYS, OUTPUT_COLOUR_NEVER } output_colour;
 
+enum { OUTPUT_SENTENCE = 0x1E }; /* U+001E */
 enum { OUTPUTS_MAX = 2, OUTPUT_BUFFER_SIZE = 1 << 16, OUTPUT_UNLIMITED = 1 << 30 };
 
 typedef struct output {
@@ -45,8 +46,8 @@ typedef struct output {
     bool paged; /**< by a pager, on the terminal of stdout */
     int width;  /**< characters in a line of text; 0: as the terminal or the page has it */
     output_colour colour;
-    bool cells;           /**< U+001F stands before each cell of a table, for who makes another table of it, and U+001E
-                               before and behind each sentence from the margin on */
+    bool cells;           /**< U+001F stands before each cell of a table, for who makes another table of it, and
+                               OUTPUT_SENTENCE before and behind each sentence from the margin on */
     const char *measured; /**< of what was measured on a GPU: which; null where nothing was. Told beside the data */
     size_t used;          /**< bytes waiting in the buffer */
     char buffer[OUTPUT_BUFFER_SIZE];

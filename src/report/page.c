@@ -136,10 +136,13 @@ void page_command(page *p, const char *command) {
 void page_text(page *p, const char *format, ...) {
     FORMATTED(text, format);
     const size_t length = strlen(text);
-    const char *const mark = p->out->cells && length > 0 && text[length - 1] == '.' ? "\x1e" : "";
-    output_format(p->out, "%s", mark);
+    const bool marked = p->out->cells && length > 0 && text[length - 1] == '.';
+    if (marked)
+        output_char(p->out, OUTPUT_SENTENCE);
     put_words(p, 0, INDENT, text);
-    output_format(p->out, "%s\n", mark);
+    if (marked)
+        output_char(p->out, OUTPUT_SENTENCE);
+    output_char(p->out, '\n');
 }
 
 void page_title(page *p, const char *format, ...) {

@@ -77,7 +77,8 @@ typedef struct column {
      *  the outer item, even where the table is left out because it has no lines. */
     void (*head)(page *p, void *item);
     void (*notes)(page *p, void *item);
-    int indent; /**< COLUMN_LIST: blanks before each line of a table */
+    bool verdict; /**< COLUMN_LIST: an item of JSON begins with the first sentence that `head` says */
+    int indent;   /**< COLUMN_LIST: blanks before each line of a table */
 } column;
 
 /* The kind follows from the member's type, so the two cannot disagree. */
@@ -115,6 +116,7 @@ typedef struct report_spec {
     int label;                          /**< width of the labels of the notes, see page.h */
     void (*head)(page *p, void *item);  /**< what text says first, */
     void (*notes)(page *p, void *item); /**< and last; null: nothing */
+    bool verdict;                       /**< JSON begins with the first sentence that `head` says */
 } report_spec;
 
 /** The item of a part; null where it does not exist, or the outer item does not. */

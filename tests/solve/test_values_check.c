@@ -224,6 +224,7 @@ TEST(each_number) {
     check_junit(path, shown, &file, verdicts, failed);
     free(shown);
     shown = output_of(1, arguments, "--report json");
+    values_tell(&v, 1, arguments);
     check_json_text(&v, shown);
     free(shown);
     free(verdicts);

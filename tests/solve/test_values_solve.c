@@ -620,6 +620,7 @@ TEST(each_number) {
         char *text = output_of(!c->possible, line, "--json");
         root = json_of(text);
         want_solve(&v, c);
+        values_tell(&v, !c->possible, line);
         check_json_text(&v, text);
         check_lines(&v, !c->possible, line);
         check_text(&v, c, line);

@@ -129,5 +129,6 @@ report_spec scene_report(scene *s) {
     count(s);
     const unsigned when = (s->eyes.count > 0 ? FROM_EYES : 0U) | (s->required ? REQUIRED : 0U) |
                           (s->assumed != NULL ? FACING : 0U) | (s->o.out.full ? TIMED : 0U);
-    return (report_spec){"scene", columns, s, when, .label = LABEL, .head = scene_say_head, .notes = scene_say_notes};
+    return (report_spec){
+        "scene", columns, s, when, .label = LABEL, .head = scene_say_head, .notes = scene_say_notes, .verdict = true};
 }

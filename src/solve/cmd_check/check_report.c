@@ -32,6 +32,7 @@ static const column biased_columns[] = {{FIELD(biased, answer, "answer", "")},
 typedef struct verdict {
     const char *file, *name, *camera, *kind, *unit, *method; /* unit: null where the file does not say */
     const char *measured;                                    /* null without a profile */
+    const char *said;                                        /* as text and JUnit have it; null: not asked for */
     need asked;
     check_verdict found;
     setup_fields setup;
@@ -61,6 +62,7 @@ static const column verdict_columns[] = {
     {FIELD(verdict, code, "code", "")},
     {FIELD(verdict, method, "method", "")},
     {FIELD(verdict, found.passed, "passed", "")},
+    {FIELD(verdict, said, "verdict", ""), .only = AS_JSON},
     {PART(verdict, biased, "bias", biased_columns), .only = AS_JSON, .pointed = true, .optional = true},
     {FIELD(verdict, surfaces, "surfaces", "")},
     {FIELD(verdict, measured, "measured", ""), .only = AS_JSON, .optional = true},
@@ -223,6 +225,7 @@ typedef struct verdicts {
     size_t count;
     bool passed;
     verdict verdict;
+    char said[SENTENCE_SIZE];
 } verdicts;
 
 static void *next_verdict(void *of, size_t i) {
@@ -233,6 +236,7 @@ static void *next_verdict(void *of, size_t i) {
     if (f == all->files + all->count)
         return NULL;
     all->verdict = verdict_of(f, &f->verdicts[i]);
+    all->verdict.said = sentence_of(f, &f->verdicts[i], all->said);
     all->verdict.setup.planes = camera_matrix_left_open(&f->verdicts[i].camera->matrix);
     all->verdict.biased = f->verdicts[i].asked->kind == QUANTITY_BIAS ? &all->verdict.of_bias : NULL;
     all->verdict.triangles = check_is_slanted(&f->verdicts[i]) ? &all->verdict.slant : NULL;

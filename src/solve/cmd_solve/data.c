@@ -294,7 +294,8 @@ void solve_report_write(const solve_report *r, output *out) {
         {LIST(NULL, beside, next_alternative), .only = AS_TEXT, .indent = 2, .head = say_others, .notes = say_cautions},
         {LIST(NULL, line_columns, next_line), .only = AS_CSV},
         {.kind = COLUMN_END}};
-    const report_spec spec = {"solve", columns, &s, .when = conditions(r), .label = 15, .head = solve_report_answer};
+    const report_spec spec = {
+        "solve", columns, &s, .when = conditions(r), .label = 15, .head = solve_report_answer, .verdict = true};
     s.triangles = slant_fields_of(&r->o->camera, &s.slant);
     take_candidate(&s, &r->items[0]);
     report_write(&spec, out, r->o->out.form);

@@ -159,7 +159,8 @@ static void write_plan(planning *x, output *out) {
                               {GROUP("fixed", fixed_columns), .only = AS_JSON},
                               {LIST("frusta", frustum_columns, next_frustum), .indent = 2},
                               {.kind = COLUMN_END}};
-    report_write(&(report_spec){"solve", columns, x, .label = 15, .head = say_plan}, out, x->o->out.form);
+    report_write(&(report_spec){"solve", columns, x, .label = 15, .head = say_plan, .verdict = true}, out,
+                 x->o->out.form);
 }
 
 /* How few at any slant. */

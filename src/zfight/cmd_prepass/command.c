@@ -208,7 +208,8 @@ static const column setup_report[] = {{PART(prepass, each.fields, NULL, setup_co
                                       {LIST("programs", program_columns, next_program), .notes = say_apis, .indent = 2},
                                       {.kind = COLUMN_END}};
 
-static const column columns[] = {{LIST("setups", setup_report, next_setup), .head = say_answer}, {.kind = COLUMN_END}};
+static const column columns[] = {{LIST("setups", setup_report, next_setup), .head = say_answer, .verdict = true},
+                                 {.kind = COLUMN_END}};
 
 int cmd_prepass(void *request) {
     const prepass_request *o = request;

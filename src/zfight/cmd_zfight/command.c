@@ -262,7 +262,7 @@ static void say_planes(page *p, void *item) {
 
 static const column columns[] = {
     {PART(zfight, each.triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
-    {LIST("setups", setup_report, next_setup), .head = say_answer, .notes = say_planes},
+    {LIST("setups", setup_report, next_setup), .head = say_answer, .notes = say_planes, .verdict = true},
     {.kind = COLUMN_END}};
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */

@@ -138,7 +138,7 @@ static void say_answer(page *p, void *item) {
 }
 
 static const column columns[] = {{PART(drawn, each.slant, "triangles", slant_columns), .only = AS_JSON},
-                                 {LIST("setups", setup_report, next_setup), .head = say_answer},
+                                 {LIST("setups", setup_report, next_setup), .head = say_answer, .verdict = true},
                                  {.kind = COLUMN_END}};
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
