@@ -7,6 +7,7 @@
 #include "camera/presets.h"
 #include "cli/option/names.h"
 #include "named.h"
+#include "printed.h"
 #include "raster/raster.h"
 #include "support.h"
 
@@ -21,7 +22,7 @@ static size_t count(void) {
 static preset_camera made_of(const preset *row) {
     char text[PRESET_WORDS_SIZE], error[PRESET_ERROR_SIZE];
     const preset *found = NULL;
-    preset_values values;
+    preset_values given;
     preset_camera made;
     int length = snprintf(text, sizeof text, "%s", row->name);
     for (int i = 0; row->function != NULL && row->function->parameters[i].name != NULL; i++) {
@@ -32,9 +33,9 @@ static preset_camera made_of(const preset *row) {
                            p->example);
         assert_true(length < (int)sizeof text && preset_parameter_of(row, p->name) == i);
     }
-    assert_true(preset_read(text, &found, &values, error) && found == row && preset_length(text) == strlen(text));
-    assert_string_equal(values.words, text);
-    assert_true(preset_make(row, &values, &made, error));
+    assert_true(preset_read(text, &found, &given, error) && found == row && preset_length(text) == strlen(text));
+    assert_string_equal(given.words, text);
+    assert_true(preset_make(row, &given, &made, error));
     assert_true(isnan(row->znear) == (row->function != NULL) && isnan(row->zfar) == (row->function != NULL));
     return made;
 }
@@ -42,10 +43,10 @@ static preset_camera made_of(const preset *row) {
 static preset_camera made_by(const char *text) {
     char error[PRESET_ERROR_SIZE];
     const preset *row;
-    preset_values values;
+    preset_values given;
     preset_camera made = {0};
-    assert_true(preset_read(text, &row, &values, error));
-    assert_true(preset_make(row, &values, &made, error));
+    assert_true(preset_read(text, &row, &given, error));
+    assert_true(preset_make(row, &given, &made, error));
     return made;
 }
 
@@ -144,9 +145,9 @@ TEST(test_said) {
     char error[PRESET_ERROR_SIZE];
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         const preset *row;
-        preset_values values;
+        preset_values given;
         preset_camera made;
-        assert_false(preset_read(wrong[i].text, &row, &values, error) && preset_make(row, &values, &made, error));
+        assert_false(preset_read(wrong[i].text, &row, &given, error) && preset_make(row, &given, &made, error));
         if (strstr(error, wrong[i].says) == NULL)
             fail_msg("%s: '%s' lacks '%s'", wrong[i].text, error, wrong[i].says);
     }
@@ -287,6 +288,25 @@ TEST(test_pastes) {
     assert_null(paste_near(&metres, "3.2", text, sizeof text)); /* it counts in centimetres */
     assert_null(paste_near(&none, "3.2", text, sizeof text));
     assert_null(paste_reversed(&none));
+}
+
+/* three.js has one word for the logarithms of two renderers, alone or in a list; other words mean what they say. */
+TEST(the_word_of_both_renderers) {
+    static const struct {
+        const char *preset, *said, *meant[2];
+    } rows[] = {
+        {"three-webgpu", "logarithmicDepthBuffer", {"three-webgpu"}},
+        {"three-webgpu", "LOGARITHMICDEPTHBUFFER,d3d", {"three-webgpu", "d3d"}},
+        {"three-webgpu", "gl,logarithmicDepthBuffer", {"gl", "three-webgpu"}},
+        {"three-webgpu", "three-webgl,gl", {"three-webgl", "gl"}},
+        {"three", "logarithmicDepthBuffer,gl", {"three-webgl", "gl"}},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        json_t *root = json_printed(0, "table --preset %s -F d24 -m %s --json", rows[i].preset, rows[i].said);
+        for (size_t k = 0; k < 2 && rows[i].meant[k] != NULL; k++)
+            assert_string_equal(text_at(root, "setups[%zu].mapping", k), rows[i].meant[k]);
+        json_decref(root);
+    }
 }
 
 TEST(test_view) {
