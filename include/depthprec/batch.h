@@ -95,7 +95,7 @@ DP_API dp_status dp_batch_init(dp_batch *batch, const dp_setup *setup, dp_task t
  * @param out  codes, or depths; the same address as `in` is allowed where an element written is not larger than one
  *             read. Any other overlap is not.
  *
- * Cost: one thread, no allocation, some 24 KiB of stack, for separations 56.
+ * Cost: one thread, no allocation, some 24 KiB of stack, for separations 64.
  */
 DP_API void dp_batch_run(const dp_batch *batch, const void *in, void *out, size_t count);
 

@@ -169,8 +169,9 @@ static double outward(const dp_batch *b, double wide) {
     return (double)(b->task == DP_TASK_LO ? dp_float_down(wide) : dp_float_up(wide));
 }
 
-/* All at once, because many together take less; NaN beyond the planes. */
-static void run_separations(const dp_batch *b, const unsigned char *from, unsigned char *to, size_t count) {
+/* All at once, because many together take less; NaN beyond the planes. Other tasks do without its stack. */
+static __attribute__((noinline)) void run_separations(const dp_batch *b, const unsigned char *from, unsigned char *to,
+                                                      size_t count) {
     const dp_guarantee guarantee = dp_guarantee_make(&b->setup);
     const dp_stretches *kept = dp_batch_read(b)->kept;
     dp_stretches stretches;

@@ -1138,7 +1138,8 @@ def layout():
     numbers.update({"DP_LAYOUT_" + (k or "found").upper(): v for k, v in _core.LAYOUTS.items()})
     numbers.update({"DP_REAL_FLOAT": 0, "DP_REAL_DOUBLE": 1, "DP_WORD_16": 0, "DP_WORD_32": 1,
                     "DP_MAPPING_COUNT": _core.MAPPING_FOUND, "DP_ANCHOR_COUNT": _core.ANCHORS, "DP_TASK_COUNT": len(_core.TASK),
-                    "DP_STATUS_COUNT": len(_core.STATUSES), "DP_MODEL_COUNT": len(_core.MODELS)})
+                    "DP_STATUS_COUNT": len(_core.STATUSES), "DP_MODEL_COUNT": len(_core.MODELS),
+                    "DP_BATCH_KEEP": _core.KEEP})
     for name, value in numbers.items():
         lines.append('printf("%s %%d\\n", (int)%s);' % (name, name))
         want.append("%s %d" % (name, value))
