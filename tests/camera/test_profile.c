@@ -327,6 +327,20 @@ TEST(test_bias_beside) {
     printed_free(&p);
 }
 
+/* Words of two GPUs tell both ends. */
+TEST(test_bias_of_two_said) {
+    char path[2][256];
+    for (size_t i = 0; i < 2; i++) {
+        const char *const name = i == 0 ? "bias.json" : "other.json";
+        write_bias(name, i, "");
+        snprintf(path[i], sizeof path[i], "%s", scratch_file(name));
+    }
+    printed p = print_of("bias --api vulkan -F fp32 -n 0.1 -f inf -m reversed --at 10 --full --raster %s --arith %s",
+                         path[0], path[1]);
+    assert_non_null(strstr(p.out, "on this GPU r is 1 to 2 times 2^(n-23)"));
+    printed_free(&p);
+}
+
 /* Two GPUs: the least and the greatest r of both, or none where one is not known. */
 TEST(test_bias_of_two) {
     static const struct {
