@@ -176,7 +176,7 @@ async function read() {
     return `${files.length} files`;
 }
 
-async function axeFindsNothing(page) {
+export async function axeFindsNothing(page) {
     await page.evaluate(readFileSync(axe, "utf8"));
     const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
     demand(violations.length === 0, JSON.stringify(violations.map(({ id, nodes }) => [id, nodes[0].html])));

@@ -6,7 +6,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { close, open, settled } from "./browser.mjs";
 import { differences, measure } from "./page_gpu.mjs";
-import { png, put } from "./page_image.mjs";
+import { axeFindsNothing, png, put } from "./page_image.mjs";
 import { demand, test } from "./tap.mjs";
 
 const { fround } = Math;
@@ -166,6 +166,7 @@ export async function walks() {
             await test(`${who}, ${width} px`, async () => {
                 const page = await open({ folded: true, width, height: 800, mobile: width < 500 });
                 const said = await walk(page).finally(() => page.screenshot({ path: `${process.env.B ?? "build"}/web/shots/walk-${walk.name}-${width}.png`, fullPage: true }));
+                await axeFindsNothing(page);
                 await close(page);
                 return said;
             });
