@@ -409,3 +409,16 @@ TEST(numbers_are_those_shown) {
         free(d);
     }
 }
+
+/* Curves of CSV share their places: beside a picture, which needs few, there are as many as without one. */
+TEST(numbers_beside_a_picture) {
+    static const char *const figures[] = {"error -F d24 -m d3d", "interval -F fp32,d16 -m reversed",
+                                          "share -F d16 -m d3d"};
+    for (size_t i = 0; i < sizeof figures / sizeof figures[0]; i++) {
+        char *alone = drawn_output("plot %s -n 0.1 -f 1000 --csv", figures[i]);
+        char *beside = drawn_output("plot %s -n 0.1 -f 1000 --csv -o %s/beside.svg", figures[i], drawn_folder());
+        assert_string_equal(beside, alone);
+        free(alone);
+        free(beside);
+    }
+}
