@@ -178,6 +178,28 @@ TEST(test_damaged) {
         fail_msg("%zu refused, %zu read", refused, read);
     char filled[2 * BRIEF_SIZE], error[SHOT_ERROR_SIZE];
     probe_result r;
+    assert_true(brief_read("A~B~C~8~~~l0n1*9*10", formats, &r, error));
+    probe_free(&r);
+    static const char *const none[] = {
+        "A~B~C~8~~~l0n1*9*10x",
+        "A~B~C~8~~~l0n1*11*10",
+        "A~B~C~8~~~l0n1*9",
+        "A~B~C~8~~~a0s1x",
+        "A~B~C~8~~~a0m1*2",
+        "A~B~C~8~~~h-m0*1e999",
+        "A~B~C~8~~~h-m0*-1",
+        "A~B~C~8~~~a3s1",
+        "A~B~C~8x~~~a0s1",
+        "A~B~C~8~~~",
+        "~B~C~8~~~a0s1",
+        "A~B~C~8~~a0s1",
+        "A~B~C~8~ieee~spec-d3d~a0s1",
+    };
+    for (size_t i = 0; i < sizeof none / sizeof none[0]; i++) {
+        if (brief_read(none[i], formats, &r, error))
+            fail_msg("'%s' is read", none[i]);
+        probe_free(&r);
+    }
     memset(filled, 'a', sizeof filled - 1);
     filled[sizeof filled - 1] = '\0';
     assert_false(brief_read(filled, formats, &r, error));
