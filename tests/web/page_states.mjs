@@ -141,7 +141,7 @@ async function files(r, count) {
     for (let i = 0; i < count; i++) {
         const page = await open(); // a browser asks before a page saves many
         await paste(page, quick(r));
-        for (const button of await page.locator("[data-export]:visible").all()) {
+        for (const button of await page.locator("[data-export]:not([data-export=copy]):visible").all()) {
             const kind = await button.getAttribute("data-export");
             const run = await button.evaluate((one) => one.closest("[data-run]").dataset.run);
             const [download] = await Promise.all([page.waitForEvent("download"), button.click()]);
