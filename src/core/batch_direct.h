@@ -42,38 +42,53 @@ LOOP_CODES(REVERSED_32, real32, word32, clamped32, place_reversed)
 
 /* ---- Direct: float depth to binary32, perspective ---------------------------------------------------------------- */
 
+/* The codes of both ends of what a depth may be. */
+typedef struct ends {
+    uint32_t least, most;
+} ends;
+
+/* LOOP(), of ends: where both are one it is the code. Bits in which they differ anywhere are gathered. */
+#define LOOP_ENDS(NAME, IN, OUT, ENDS)                                                                                 \
+    TARGET static int32_t kernel_##NAME(const dp_batch *batch, const void *in, void *out, size_t count) {              \
+        const IN *restrict from = in;                                                                                  \
+        OUT *restrict to = out;                                                                                        \
+        const numbers k = dp_batch_read(batch)->numbers;                                                               \
+        uint32_t apart = 0;                                                                                            \
+        PRAGMA(omp simd reduction(| : apart))                                                                          \
+        for (size_t i = 0; i < count; i++) {                                                                           \
+            const ends e = ENDS(&k, from[i]);                                                                          \
+            apart |= e.least ^ e.most;                                                                                 \
+            to[i] = e.least;                                                                                           \
+        }                                                                                                              \
+        return apart == 0;                                                                                             \
+    }
+
 /*
  * d = s - p/z, or p/z - s reversed, each step as a sum of two floats. The code is certain where both ends of what d may
  * be are rounded to it; batch_plan.c has the error bound. Beyond the planes lie the skies and holes of pictures, whose
  * codes are known.
  */
-DP_INLINE placed place_binary32(const numbers *k, float z, int reversed) {
+DP_INLINE ends ends_binary32(const numbers *k, float z, int reversed) {
     const float inverse = 1.0F / z, q = k->reach * inverse, left = fmaf(-q, z, k->reach);
     const float more = reversed ? q : k->offset, less = reversed ? k->offset : q, d = more - less;
     const float rest = fmaf(k->reach_rest, inverse, more - d - less) + k->offset_rest;
     const float small = fmaf(reversed ? left : -left, inverse, rest);
     const float error = reversed ? fmaf(q, 0x1p-43F, 0x1p-120F) : k->unsure;
-    const float least = d + (small - error), most = d + (small + error);
-    const uint32_t end = z >= k->beyond ? k->far_code : k->near_code;
-    const int inside = z >= k->z_lo && z < k->beyond;
-    return (placed){inside ? dp_bits32(least) : end, inside && !(least == most) ? 0 : 1};
+    const int behind = z >= k->beyond, inside = z >= k->z_lo && !behind;
+    const uint32_t end = behind ? k->far_code : k->near_code;
+    return (ends){inside ? dp_bits32(d + (small - error)) : end, inside ? dp_bits32(d + (small + error)) : end};
 }
 
-DP_INLINE placed place_binary32_standard(const numbers *k, float z) {
-    return place_binary32(k, z, 0);
+DP_INLINE ends ends_standard(const numbers *k, float z) {
+    return ends_binary32(k, z, 0);
 }
 
-DP_INLINE placed place_binary32_reversed(const numbers *k, float z) {
-    return place_binary32(k, z, 1);
+DP_INLINE ends ends_reversed(const numbers *k, float z) {
+    return ends_binary32(k, z, 1);
 }
 
-DP_INLINE float given32(const numbers *k, float x) {
-    (void)k;
-    return x;
-}
-
-LOOP_CODES(BINARY32_STANDARD, real32, word32, given32, place_binary32_standard)
-LOOP_CODES(BINARY32_REVERSED, real32, word32, given32, place_binary32_reversed)
+LOOP_ENDS(BINARY32_STANDARD, real32, word32, ends_standard)
+LOOP_ENDS(BINARY32_REVERSED, real32, word32, ends_reversed)
 #endif
 
 /* ---- Direct: float window depth to UNORM and back, N from 2 to 24, to nearest ------------------------------------ */
