@@ -495,7 +495,7 @@ static const refusal refusals[] = {
     {"table --at @/dev/null", "at", 2},
     {"table --nosuch", "", 2},
     {"table -Q", "", 2},
-    {"tabl", "", 2},
+    {"qable", "", 2},
     {"table 5", "", 2},
     {"check", "", 2},
     {"help nothing", "", 2},
