@@ -76,7 +76,7 @@ all_named bias -F unorm24 -m d3d --at 10 --remedy ray:0.1 --slope 0.1
 all_named world
 all_named world --from-origin 1km,1e6m
 all_named budget --at 10 --from-origin 1e5 --scheme split
-verdicts() { # verdicts COUNT COMMAND ARGUMENTS...: those that the text does not have, or how many there are
+verdicts() { # verdicts COUNT COMMAND ARGUMENTS...: those that the text does not have, and how many there are if not COUNT
     count=$1
     shift
     "$DEPTHPREC" "$@" | tr -s ' \n' ' ' >"$scratch/text"
@@ -84,7 +84,7 @@ verdicts() { # verdicts COUNT COMMAND ARGUMENTS...: those that the text does not
     while read -r verdict; do
         grep -qF -e "$verdict" "$scratch/text" || echo "$verdict"
     done <"$scratch/verdicts"
-    [ "$(wc -l <"$scratch/verdicts")" -eq "$count" ] || cat "$scratch/verdicts"
+    [ "$(wc -l <"$scratch/verdicts")" -eq "$count" ] || echo "$(wc -l <"$scratch/verdicts") verdicts, not $count"
 }
 for words in '1 solve -f 1000 -F unorm24 -m d3d --separation 1cm --at 100m' '1 solve --for frusta -n 0.1 -f 1e6 -F d24 -m d3d --separation 1' \
     '2 zfight -n 1 -f 1.5 -F unorm16 -m d3d,reversed --sample 100 --separation 0.01' '1 zfight -n 1 -f 1.5 -F unorm16 -m d3d --rasterize --sample 10' \
