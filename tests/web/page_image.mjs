@@ -10,7 +10,8 @@ import { plain } from "./plain.mjs";
 import { demand, test } from "./tap.mjs";
 
 const WIDTH = 37, HEIGHT = 23;
-const folder = mkdtempSync(join(tmpdir(), "depthprec-"));
+const folder = mkdtempSync(join(tmpdir(), "depthprec-")); // of others' images, too
+process.on("exit", () => rmSync(folder, { recursive: true }));
 export const put = (name, bytes) => (writeFileSync(join(folder, name), bytes), join(folder, name));
 
 // Window depths of a slope with waves, near 0.3 and far 100; reversed or not.
@@ -243,5 +244,4 @@ export async function image() {
     await test("25 megapixels", large);
     await test("samples that are coarser, metric, holes and halves; dropped; by pointer; beside a set-up that changes", others);
     await test("a file that is damaged or of another kind is refused in a sentence", refused);
-    rmSync(folder, { recursive: true });
 }
