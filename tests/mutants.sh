@@ -88,7 +88,7 @@ export CC TEST_SECONDS LC_ALL=C B=build
 
 stale >&2
 [ -z "$(stale)" ] || exit 1
-make -j"${JOBS:-2}" --no-print-directory all check-programs npm >&2 || exit 1
+make -j"${JOBS:-2}" --no-print-directory all check-programs npm web >&2 || exit 1
 
 mkdir -p build/mutants
 folder=$(mktemp -d "$PWD/build/mutants/XXXXXX") || exit 1
@@ -107,7 +107,7 @@ copy() { # copy TREE: what git and make know of the working tree, and its build,
     for part in Makefile README.md LICENSE* .clang-format .ci include src tests man plots; do
         cp -a "$part" "$1"
     done
-    for part in obj web npm dist tests depthprec libdepthprec.a libdepthprec.so.0 librooms.a libsupport.a \
+    for part in obj web npm dist tests depthprec depthprec.html libdepthprec.a libdepthprec.so.0 librooms.a libsupport.a \
         build.cflags build.libs check.cflags check.libs; do
         cp -a "build/$part" "$1/build"
     done
@@ -140,7 +140,7 @@ judge() { # judge TREE TEST...: prints what came of it
     shift
     near=$(paths "$@")
     # shellcheck disable=SC2046
-    make -C "$tree" all $(echo "$near" | grep '^build/') >"$tree/mutants.log" 2>&1 ||
+    make -C "$tree" all $(echo "$near" | sed -n '/^build/p; s|^tests/page.sh|web|p') >"$tree/mutants.log" 2>&1 ||
         { echo "error: it does not compile: $(grep -m 1 -i error "$tree/mutants.log" | cut -c 1-120)" && return; }
     tests=$near how=
     for round in 1 2 3 4; do
