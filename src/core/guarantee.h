@@ -33,10 +33,11 @@ double dp_guarantee_at(const dp_guarantee *g, double z);
 double dp_with_lattice(const dp_setup *setup, double z, double needs);
 
 /*
- * Stretches of depths whose guarantees follow from a few numbers. Most perspective cameras have some; finding them
- * takes as long as DP_STRETCHES_PAY depths one by one, or less.
+ * Stretches of depths whose guarantees follow from a few numbers. Perspective cameras in the arithmetic ieee, facing,
+ * have some where they are reversed from 1 to 0, or far is at most 1e5 near; finding them takes as long as
+ * DP_STRETCHES_PAY depths one by one, or less.
  */
-enum { DP_STRETCHES = 384, DP_STRETCH_CELLS = 1024, DP_STRETCHES_PAY = 2048 };
+enum { DP_STRETCHES = 384, DP_STRETCH_CELLS = 1024, DP_STRETCHES_PAY = 3072 };
 typedef struct dp_stretch {
     double from, to, linear, linear_rise, falling, falling_rise, kept_lo, product, granule, end, lattice;
 } dp_stretch;
@@ -49,7 +50,7 @@ typedef struct dp_stretches {
     dp_stretch list[DP_STRETCHES + 1];
 } dp_stretches;
 
-/* Of a camera that has none there are 0: each depth is then for dp_guarantee_at(). */
+/* A camera may have none: each depth is then for dp_guarantee_at(). */
 void dp_stretches_find(dp_stretches *all, const dp_guarantee *g);
 
 /* dp_guarantee_at() of many depths, to the bit, and many times as fast (`make bench`: separations). */

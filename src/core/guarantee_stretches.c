@@ -23,7 +23,7 @@ static const double least_z = 0x1p-90;
 /* A stretch ends up to GAP binary32 numbers before the next one begins, as finding the place takes time. */
 enum { GAP = 1 << 12, FIRST = 1 << 16 };
 
-/* What is decided at a depth. */
+/* Notes the decisions on the way to the demand at a depth. */
 static void decide(const dp_chain *chain, float z, dp_decisions *d) {
     dp_chain c = *chain;
     dp_demand ignored;

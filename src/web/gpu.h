@@ -27,7 +27,7 @@ typedef struct gpu_request {
     uint32_t passed;
 } gpu_request;
 
-/** What WebGL calls the formats of a shot. */
+/** WebGL's names of the formats of a shot. */
 extern const char *const gpu_formats[SHOT_FORMATS];
 
 /** Does what is asked. @return false with a sentence in `text` */

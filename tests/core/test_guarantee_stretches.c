@@ -55,6 +55,32 @@ static double some_depth(rng *r, const dp_setup *s) {
     return fmax(n, fmin(z, f));
 }
 
+/* Those that the headers promise to gain have stretches, from near on and over nearly all binary32 depths. */
+TEST(test_cameras_that_gain) {
+    static const dp_mapping mappings[] = {DP_MAPPING_D3D, DP_MAPPING_GL, DP_MAPPING_GL_REVERSED, DP_MAPPING_REVERSED};
+    static const double ratios[] = {10, 1000, 1e5, 1e9, HUGE_VAL};
+    static dp_stretches found;
+    for (int f = 0; f < 4; f++)
+        for (int m = 0; m < 4; m++)
+            for (int k = 0; k < (mappings[m] == DP_MAPPING_REVERSED ? 5 : 3); k++) {
+                dp_spec spec = dp_spec_default();
+                dp_setup s;
+                spec.mapping = mappings[m];
+                spec.zfar = ratios[k] * spec.znear;
+                assert_true(make(&s, formats[f], spec));
+                const dp_guarantee g = dp_guarantee_make(&s);
+                dp_stretches_find(&found, &g);
+                double covered = 0;
+                const double from = spec.znear, to = fmin(spec.zfar, 1e5 * spec.znear);
+                for (int i = 0; i < found.count; i++)
+                    if (found.list[i].from < to)
+                        covered += log(fmin(found.list[i].to, to) / fmax(found.list[i].from, from));
+                if (!(covered > 0.9 * log(to / from)))
+                    fail_msg("%s %s far/near %g: %g of it", formats[f], dp_mapping_get(mappings[m])->name, ratios[k],
+                             covered / log(to / from));
+            }
+}
+
 /* Cameras of any planes. What is left to dp_guarantee_at() is among them: it has to be told apart. */
 TEST(test_random) {
     static double z[COUNT];

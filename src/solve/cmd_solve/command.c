@@ -26,7 +26,7 @@ static bool is_given(const solve_request *o, const char *id) {
     return option_given(o->line, id) || (o->camera.matrix.count == MATRIX_ENTRIES && strcmp(id, "format") != 0);
 }
 
-/* What a preset says is known, and may be solved for. */
+/* A preset says all of them: they are known, and may be solved for. */
 static bool is_known(const solve_request *o, const char *id) {
     return is_given(o, id) || o->camera.preset_count > 0;
 }
