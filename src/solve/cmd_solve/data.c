@@ -237,9 +237,11 @@ static const column any_columns[] = {{PART(any_slant, view, NULL, slant_view_col
                                      {FIELD(any_slant, found.reached.z, "z", "scene"), .when = NO_DISTANCE},
                                      {.kind = COLUMN_END}};
 
+/* By target. */
+static const char *const heads[] = {"least near", "largest far", "near", "near", "", "distance"};
+
 /* Writes the report; the quantities measured and solved for name columns. */
 void solve_report_write(const solve_report *r, output *out) {
-    static const char *const heads[] = {"least near", "largest far", "near", "near", "", "distance"};
     solving s = {.report = *r, .target = option_word("for", r->target), .measure = solve_measure_name(r)};
     const column lattice[] = {{FIELD(candidate, found.lattice.possible, "possible", "")},
                               {FIELD(candidate, lattice_near, "near", "scene"), .optional = true},
