@@ -8,7 +8,7 @@
 # fails ends the row.
 set -u
 
-table=tests/mutants.txt
+table=${TABLE-tests/mutants.txt}
 mark=$(printf '\001') # between the fields of a row, which may hold anything that a line of C may hold
 
 rows() { # rows: number, room, file, tests, old text, new text, what is seen, line of the table
