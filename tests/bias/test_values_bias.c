@@ -15,6 +15,7 @@ static const char *const lines[] = {
     "bias --api d3d9 -n 1 -f 200 -F unorm24 -m log,linear --log-c 3 --units=-2.5e-6 --factor=-1.5 --slope 0.5 "
     "--at 1,2,30,90,150,199",
     "bias --api d3d11 -n 2 -f 60 -F fp32 -m d3d --ortho --units=4000 --at 2,3,7,20,45,60",
+    "bias --api d3d11 -n 2 -f 60 -F fp32 -m reversed --ortho --units=4000 --slope 0.5 --at 3,5,7,20,45,60",
     /* Why it is not enough: the exponent, the sign, the clamp, the separation. */
     "bias --api vulkan-exact -n 1 -f 100 -F fp32 -m reversed --units=0.75 --slope 1e-9 --at 2,3,7,20,45,60",
     "bias --api vulkan-exact -n 1 -f 100 -F fp32 -m d3d --units=90 --factor=1 --slope 0.001 --at 2,3,7,20,45,60",
@@ -202,7 +203,51 @@ static void check_text(values *v, const bias_case *c, const char *line) {
     free(text);
 }
 
+/* What a sentence is said of: a verdict, or a row. */
+static bool any_is(const values *v, const char *field) {
+    for (size_t i = 0; i < v->count; i++) {
+        const size_t before = strlen(v->items[i].path) - strlen(field);
+        if (before < PATH_SIZE && strcmp(v->items[i].path + before, field) == 0 && v->items[i].number > 0)
+            return true;
+    }
+    return false;
+}
+
+/* The verdicts end before what was asked about does, at its beginning or at its end. */
+static bool any_ends(const values *v, const char *field, double asked) {
+    for (size_t i = 0; i < v->count; i++) {
+        const char *part = strstr(v->items[i].path, "facing.");
+        part = part != NULL ? part : strstr(v->items[i].path, "sloped.");
+        if (part != NULL && strcmp(part + 7, field) == 0 && fabs(v->items[i].number - asked) > 1e-6 * fabs(asked))
+            return true;
+    }
+    return false;
+}
+
+/* Sentences are said where a field says the same, and nowhere else. */
+static void check_sentences(values *v, const bias_case *c, const char *line, unsigned seen[2]) {
+    values_tell(v, 0, line);
+    const bool near = any_ends(v, "lo", c->z[0]), far = any_ends(v, "hi", c->z[DEPTHS - 1]);
+    const struct {
+        const char *said;
+        bool holds;
+    } rows[] = {{"a biased depth beyond a plane is clamped to it", any_is(v, "limited")},
+                {"it has the wrong sign", any_is(v, "enough_turned")},
+                {"enough where drivers take the exponent n + 1", any_is(v, "enough_next")},
+                {"the clamp holds it", any_is(v, "enough_unclamped")},
+                {"nearer by less than the separation", any_is(v, "short_of_gap")},
+                {"next to the planes none is certain", near || far},
+                {"pushes up to", any_is(v, "push.shift")}};
+    for (unsigned i = 0; i < sizeof rows / sizeof rows[0] && !c->inverse; i++) {
+        if ((strstr(v->told, rows[i].said) != NULL) != rows[i].holds)
+            fail_msg("'%s' is %ssaid:\n%s", rows[i].said, rows[i].holds ? "not " : "", v->told);
+        seen[rows[i].holds] |= 1U << i;
+    }
+    seen[1] |= near != far ? near ? 0x100U : 0x200U : 0;
+}
+
 TEST(each_number) {
+    unsigned seen[2] = {0}; /* sentences that are not said, and that are; each end alone */
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
         const bias_case c = case_of(lines[i]);
         values v = values_of(lines[i]);
@@ -216,8 +261,10 @@ TEST(each_number) {
                     SETUP_CSV "api = /api, z [scene], r, r_most, slope [per pixel], ?bias, ?depth, ?code, ?code_moved, "
                               "?z_moved [scene], ?shift [scene], ?one_unit [scene], ?units_apart, ?units_gap");
         check_text(&v, &c, lines[i]);
+        check_sentences(&v, &c, lines[i], seen);
         values_free(&v);
     }
+    assert_true(seen[0] == 0x7F && (seen[1] & 0x27F) == 0x27F); /* 0x200: the far end alone */
 }
 
 /* A browser changes units before they arrive: by this, times what fp32 makes of one at a depth of 0.01: 2^(-7 - 23). */

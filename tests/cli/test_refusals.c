@@ -545,6 +545,47 @@ static const refusal refusals[] = {
     {"prepass --against fma -n 1 -f 1e39", "far", 2},
 };
 
+/* The line with a word of it changed, the last that stands behind a blank or one of ":,="; false: there is none. */
+static bool put_word(const char *line, const char *from, const char *to, char out[320]) {
+    const char *found = NULL;
+    for (const char *at = strstr(line, from); at != NULL; at = strstr(at + 1, from))
+        if (at > line && strchr(" :,=", at[-1]) != NULL && strchr(" ", at[strlen(from)]) != NULL)
+            found = at;
+    if (found != NULL)
+        snprintf(out, 320, "%.*s%s%s", (int)(found - line), line, to, found + strlen(from));
+    return found != NULL;
+}
+
+/* A limit that a refusal names is not refused so itself, and what lies beyond it is. */
+static void check_limit(tally *t, const char *line, const char *errors, const char *got, const char *limit,
+                        int beyond) {
+    const size_t said = (size_t)(strstr(errors, ", got ") - errors), option = strcspn(errors, " ") + 1;
+    const double step = strstr(errors, "whole") != NULL ? 1 : 1e-12 * fmax(fabs(strtod(limit, NULL)), 1);
+    char text[40], changed[320];
+    for (int wrong = 0; wrong < 2; wrong++) {
+        snprintf(text, sizeof text, "%.17g", strtod(limit, NULL) + wrong * beyond * step);
+        if (!put_word(line, got, wrong ? text : limit, changed))
+            return;
+        printed p = print_of("%s%s", changed, wrong ? "" : " -o /nonexistent/x"); /* which is all that is left to say */
+        const size_t alike = wrong ? option + strcspn(errors + option, " ") : said;
+        TALLY(t, (strncmp(p.errors, errors, alike) == 0) == wrong, "%s: %s", changed, p.errors);
+        printed_free(&p);
+    }
+}
+
+/* Where a single number was refused that must be from one to another. */
+static void check_limits(tally *t, const char *line, const char *errors) {
+    char lo[32], hi[32], got[32];
+    const char *from = strstr(errors, "from "), *behind = strstr(errors, ", got ");
+    if (from == NULL || behind == NULL || from > behind || strstr(errors, "LO:HI, ") != NULL ||
+        strstr(errors, "0, or ") != NULL || sscanf(from, "from %31[-+0-9.e] to %31[-+0-9.e]", lo, hi) != 2 ||
+        sscanf(behind + 6 + (behind[6] == '\''), "%31[^'\n]", got) != 1 || strspn(got, "-0123456789.e") < strlen(got) ||
+        strstr(behind, " in ") != NULL)
+        return;
+    check_limit(t, line, errors, got, lo, -1);
+    check_limit(t, line, errors, got, hi, 1);
+}
+
 static void check_refusal(tally *t, const char *arguments, const char *option, int status) {
     char begin[96];
     printed p = print_of("%s", arguments);
@@ -566,6 +607,8 @@ static void check_refusal(tally *t, const char *arguments, const char *option, i
         } else {
             TALLY(t, p.out[0] == '\0', "%s: printed something", arguments);
         }
+        if (status == 2)
+            check_limits(t, arguments, p.errors);
     } else {
         TALLY(t, p.out[0] != '\0', "%s: printed nothing", arguments);
     }

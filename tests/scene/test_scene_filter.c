@@ -186,6 +186,23 @@ TEST(test_not_hidden) {
     expect(exactly, 1, FINDER_HIDDEN, 0);
 }
 
+/* A body has one node and one mesh, of whatever materials: its last face is another's where either differs. */
+TEST(test_hidden_by_parts) {
+    static const struct {
+        const char *node, *mesh, *material;
+        size_t hidden;
+    } rows[] = {{"chest", "box", "iron", 2}, {"chest", "lid", "wood", 0}, {"lid", "box", "wood", 0}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        rug_at(5);
+        chest(4.5, -0.5);
+        made.surface[2].mesh = "box";
+        const uint32_t last = scene_made_surface(&made, rows[i].node, rows[i].material);
+        made.surface[last].mesh = rows[i].mesh;
+        made.of[made.m.triangles - 1] = made.of[made.m.triangles - 2] = last;
+        expect((finder_asked){.gap = 0.0}, rows[i].hidden == 0, FINDER_HIDDEN, rows[i].hidden);
+    }
+}
+
 /* Floor and rug are seen from both sides: a body in front hides them where another one stands behind. */
 TEST(test_hidden_behind) {
     enum { CHEST = 1, CELLAR = 2 };
