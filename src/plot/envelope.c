@@ -81,26 +81,6 @@ static void add_binades(knot_list *k, const dp_setup *setup, int most) {
         add_knot(k, dp_eye(setup, ldexp(1.0, -i), 1 - ldexp(1.0, -i)));
 }
 
-/* Where a share of the way from NDC depth's least to its greatest is the window depth. */
-static void add_share(knot_list *k, const dp_setup *setup, double share, double rest) {
-    const double d = setup->ranged ? setup->low + setup->span * share : share;
-    add_knot(k, dp_eye(setup, d, setup->ranged ? 1 - d : rest));
-}
-
-/* Adds binades of NDC depths in [-1, 1], of which each half has its own powers of two. */
-static void add_signed_binades(knot_list *k, const dp_setup *setup) {
-    for (int i = 1; i <= 50; i++) {
-        add_share(k, setup, 0.5 + ldexp(0.5, -i), 0.5 - ldexp(0.5, -i));
-        add_share(k, setup, 0.5 - ldexp(0.5, -i), 0.5 + ldexp(0.5, -i));
-    }
-}
-
-/* Adds those of NDC depths in [0, 1], which are window depths where the viewport does not move them. */
-static void add_moved_binades(knot_list *k, const dp_setup *setup) {
-    for (int i = 1; i <= 50 && setup->ranged; i++)
-        add_share(k, setup, ldexp(1.0, -i), 1 - ldexp(1.0, -i));
-}
-
 /* Eye depths have powers of two of their own, and so have A z and A z + B of the projection. */
 static void add_clip_binades(knot_list *k, const dp_setup *setup, double hi) {
     const dp_spec *spec = &setup->spec;
@@ -129,10 +109,6 @@ static size_t find_knots(const dp_setup *setup, double hi, double at[REFINE_KNOT
     knot_list k = {at, 0};
     if (spec->format.kind == DP_FORMAT_FLOAT || rounded)
         add_binades(&k, setup, rounded ? 150 : spec->format.bias + 1);
-    if (rounded && dp_mapping_get(spec->mapping)->ndc_signed)
-        add_signed_binades(&k, setup);
-    if (rounded && !dp_mapping_get(spec->mapping)->ndc_signed)
-        add_moved_binades(&k, setup);
     if (spec->model == DP_MODEL_FLOAT)
         add_clip_binades(&k, setup, hi);
     return k.count;
