@@ -47,13 +47,27 @@ static double off(const dp_setup *s, const reference_pipe *p, double z) {
     return fabs((double)(decoded(s, reference_code(p, key)) - (long double)z));
 }
 
+/* A code is farthest off where it begins or ends: the depths next to such a place between two. */
+static double off_at_change(const dp_setup *s, const reference_pipe *p, double a, double b) {
+    uint32_t from = reference_rank(a), to = reference_rank(b);
+    const uint32_t code = reference_code(p, reference_key(p, from));
+    while (to - from > 1 && to > from) {
+        const uint32_t middle = from + (to - from) / 2;
+        *(reference_code(p, reference_key(p, middle)) == code ? &from : &to) = middle;
+    }
+    return fmax(off(s, p, fmin(fmax(reference_depth(from), a), b)), off(s, p, fmin(fmax(reference_depth(to), a), b)));
+}
+
 /* The worst of some depths of a range, its end among them, and next to that. */
 static double worst_off(const dp_setup *s, double lo, double hi, rng *r, int tries) {
     const reference_pipe p = reference_pipe_make(s, rng_below(r, 2) == 0);
     double worst = off(s, &p, hi);
     for (int i = 0; i < tries; i++) {
         const double from = i % 2 == 0 ? lo : fmax(lo, hi - 1e-3 * fabs(hi));
-        worst = fmax(worst, off(s, &p, fmin(fmax(rng_uniform(r, from, hi), lo), hi)));
+        const double z = fmin(fmax(rng_uniform(r, from, hi), lo), hi);
+        worst = fmax(worst, off(s, &p, z));
+        if (i % 4 == 0)
+            worst = fmax(worst, off_at_change(s, &p, z, fmin(fmax(rng_uniform(r, z, hi), z), hi)));
     }
     return worst;
 }
@@ -68,9 +82,12 @@ TEST(never_farther_off) {
         if (!random_setup(&r, i, &s))
             continue;
         const double n = s.spec.znear, end = isinf(s.spec.zfar) ? 1e6 * n : s.spec.zfar;
-        const double hi = rng_below(&r, 8) == 0 ? end
-                          : n > 0               ? fmin(rng_log(&r, n, end), end)
-                                                : fmin(fmax(rng_depth(&r, n, end), n), end);
+        const double low = rng_log(&r, 1e-6, 0.06); /* window depths where steps of binary32 are fine */
+        const double little = fmin(fmax(dp_eye(&s, low, 1.0 - low), n), end);
+        const double hi = rng_below(&r, 8) == 0   ? end
+                          : rng_below(&r, 4) == 0 ? little
+                          : n > 0                 ? fmin(rng_log(&r, n, end), end)
+                                                  : fmin(fmax(rng_depth(&r, n, end), n), end);
         const double lo = rng_below(&r, 4) == 0 ? n
                           : n > 0               ? fmax(n, hi / rng_log(&r, 1.00001, 10))
                                                 : rng_uniform(&r, n, hi);
