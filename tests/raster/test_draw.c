@@ -71,10 +71,47 @@ TEST(depths_that_need_the_remap) {
 
 /* ---- Every pixel by itself --------------------------------------------------------------------------------------- */
 
+/* The bias of a triangle, and what it is told of each piece of it. */
+typedef struct biasing {
+    float bias;
+    int pieces;
+    float most[RASTER_PIECES], slope[RASTER_PIECES];
+} biasing;
+
+static biasing told;
+
+static float offset_of(const void *of, float most, float slope) {
+    (void)of;
+    told.most[told.pieces] = most;
+    told.slope[told.pieces++] = slope;
+    return told.bias;
+}
+
+/* The greatest window depth of three vertices, from 0 to 1. */
+static double greatest(const scene *s, const double place[3][3]) {
+    double most = 0.0;
+    for (int i = 0; i < 3; i++) {
+        const double ndc = (double)s->a + (double)s->b / place[i][2];
+        most = fmax(most, s->remap ? 0.5 * (ndc + 1.0) : ndc);
+    }
+    return fmin(most, 1.0);
+}
+
+static void check_told(const scene *s, const double place[3][3], const raster_triangle *drawn, tally *t) {
+    const double most = greatest(s, place);
+    TALLY(t, told.pieces == drawn->count, "%d pieces, not %d", told.pieces, drawn->count);
+    for (int i = 0; i < drawn->count && i < told.pieces; i++) {
+        const raster_plane *p = &drawn->piece[i].plane;
+        TALLY(t, fabs((double)told.most[i] - most) < 1e-5 && told.slope[i] == fmaxf(fabsf(p->a), fabsf(p->b)),
+              "%s: told of depth %.9g and slope %.9g, not %.9g and %.9g or %.9g", s->camera.target.row->name,
+              (double)told.most[i], (double)told.slope[i], most, (double)fabsf(p->a), (double)fabsf(p->b));
+    }
+}
+
 /* Depth, and code as a number that grows with it, of each pixel that a triangle covers; NaN elsewhere. */
-static void stored(const scene *s, const double place[3][3], double (*depth)[WIDTH]) {
+static void stored(const scene *s, const double place[3][3], double (*depth)[WIDTH], raster_triangle *pieces) {
     raster_vertex v[3];
-    raster_triangle drawn;
+    pieces->count = 0;
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++)
             depth[y][x] = NAN;
@@ -83,17 +120,22 @@ static void stored(const scene *s, const double place[3][3], double (*depth)[WID
         const float product = s->a * z, clip = product + s->b, sum = clip + z;
         v[i] = (raster_vertex){s->p00 * x, s->p11 * y, s->remap ? sum * 0.5F : clip, z};
     }
-    if (raster_set_up(&s->camera.target, v, &drawn) != RASTER_OK)
+    if (raster_set_up(&s->camera.target, v, pieces) != RASTER_OK)
         return;
-    for (int i = 0; i < drawn.count; i++)
+    for (int i = 0; i < pieces->count; i++)
         for (int y = 0; y < HEIGHT; y++) {
             int from, to;
-            if (!raster_span(&s->camera.target, &drawn.piece[i], y, &from, &to))
+            if (!raster_span(&s->camera.target, &pieces->piece[i], y, &from, &to))
                 continue;
             for (int x = from; x < to; x++) {
                 uint32_t code;
                 float value;
-                raster_codes(&s->camera.target, &drawn.piece[i], y, x, x + 1, &code);
+                raster_codes(&s->camera.target, &pieces->piece[i], y, x, x + 1, &code);
+                if (s->camera.bias != NULL) {
+                    raster_depths(&s->camera.target, &pieces->piece[i], y, x, x + 1, &value);
+                    value = value + told.bias < 0.0F ? 0.0F : value + told.bias < 1.0F ? value + told.bias : 1.0F;
+                    raster_convert(&s->camera.target, &value, 1, &code);
+                }
                 memcpy(&value, &code, sizeof value);
                 depth[y][x] = s->setup.spec.format.kind == DP_FORMAT_FLOAT ? (double)value : (double)code;
             }
@@ -113,8 +155,8 @@ static void random_triangle(rng *r, const scene *s, double place[3][3]) {
     }
 }
 
-/* Draws surfaces into a part of the target, and each pixel of it by itself. */
-static void compare(rng *r, const scene *s, draw_buffer *b, tally *t) {
+/* Draws surfaces into a part of the target, some of them biased, and each pixel of it by itself. */
+static void compare(rng *r, scene *s, draw_buffer *b, tally *t) {
     static double depth[HEIGHT][WIDTH], best[HEIGHT][WIDTH];
     static unsigned winner[HEIGHT][WIDTH], seen[HEIGHT][WIDTH];
     const draw_area area = {(int)rng_below(r, WIDTH / 2), (int)rng_below(r, HEIGHT / 2),
@@ -125,9 +167,12 @@ static void compare(rng *r, const scene *s, draw_buffer *b, tally *t) {
     for (int i = 0; i < TRIANGLES; i++) {
         const unsigned who = 1 + (unsigned)rng_below(r, SURFACES);
         double place[3][3];
+        raster_triangle pieces;
         bool any = false;
         random_triangle(r, s, place);
-        stored(s, (const double(*)[3])place, depth);
+        s->camera.bias = rng_below(r, 2) == 0 ? offset_of : NULL;
+        told = (biasing){.bias = (float)rng_log(r, 1e-7, 2.0) * (rng_below(r, 2) == 0 ? 1.0F : -1.0F)};
+        stored(s, (const double(*)[3])place, depth, &pieces);
         const bool drawn = draw_triangle(b, &s->camera, (const double(*)[3])place, who);
         for (int y = 0; y < HEIGHT; y++)
             for (int x = 0; x < WIDTH; x++) {
@@ -142,6 +187,8 @@ static void compare(rng *r, const scene *s, draw_buffer *b, tally *t) {
                 winner[y][x] = who;
             }
         TALLY(t, drawn || !any, "%s: nothing is said to be drawn", s->camera.target.row->name);
+        if (s->camera.bias != NULL)
+            check_told(s, (const double(*)[3])place, &pieces, t);
     }
     for (int y = 0; y < area.height; y++)
         for (int x = 0; x < area.width; x++) {
