@@ -371,3 +371,19 @@ TEST(pixels_by_hand) {
     assert_true(resolve_needs(resolve_halved_find("centre"), 0, f, 0, false, 1).pixels == 1);
     assert_true(resolve_needs(resolve_halved_find("one"), 0, f, 0, false, 1).pixels == 2);
 }
+
+/* By hand: half a step of binary32 at the depth, of 1 that below it, where roundings may lead to it. */
+TEST(constants_by_hand) {
+    static const struct {
+        double depth, half;
+    } rows[] = {{1, 0x1p-25},         {1 - 0x1p-24, 0x1p-25}, {0.5, 0x1p-25},       {0.5 - 0x1p-25, 0x1p-26},
+                {0x1p-126, 0x1p-150}, {0x1p-125, 0x1p-149},   {0x1p-140, 0x1p-150}, {0, 0x1p-150}};
+    dp_format f[2];
+    dp_format_parse("fp32", f);
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const double one = resolve_needs(resolve_sampled_find("min"), 4, f, 0, false, rows[i].depth).window;
+        const double mean = resolve_needs(resolve_sampled_find("average"), 2, f, 0, false, rows[i].depth).window;
+        assert_true(one == rows[i].half);
+        assert_true(mean == 3 * rows[i].half); /* two roundings, and that of the sum, halved */
+    }
+}
