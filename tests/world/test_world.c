@@ -563,7 +563,9 @@ TEST(over_a_range) {
     for (uint64_t n = test_cases(30, 1000, 30000); n > 0; n--) {
         const buffer b = random_buffer(&r, 5000.0);
         const world_scheme s = standard(rng_below(&r, WORLD_ROWS));
-        const double lo = rng_log(&r, 1.0, 100.0), hi = lo * rng_log(&r, 1.01, 10.0), d = rng_log(&r, 10.0, 1e6);
+        const double begin = rng_below(&r, 3) == 0 ? b.setup.spec.znear : rng_log(&r, 1.0, 100.0);
+        const double longest = rng_below(&r, 4) == 0 ? HUGE_VAL : begin * rng_log(&r, 1.01, 10.0);
+        const double hi = fmin(longest, fmin(b.setup.spec.zfar, 1e4)), lo = begin, d = rng_log(&r, 10.0, 1e6);
         world_asked a = {.setup = &b.setup, .ray_ratio = lean, .shared_origin = rng_below(&r, 2)};
         const double bound = world_separation_over(&s, &a, d, lo, hi);
         double most = 0.0;
