@@ -396,10 +396,12 @@ TEST(test_enough_over) {
         double lo, hi, from, to;
         const dp_setup setup = any_setup(&r, rng_below(&r, 2) ? "unorm24" : "fp32", &lo, &hi);
         bias_goal goal = {.api = bias_api_get(rng_below(&r, 11)), .gap = rng_below(&r, 2) ? lo * 0.01 : 0};
-        goal.slope = rng_below(&r, 2) ? rng_log(&r, 1e-4, 0.1) : 0;
+        goal.slope = rng_below(&r, 2) ? rng_log(&r, 1e-4, 1e4) : 0;
         lo += goal.gap;
         if (!(lo * 1.01 < hi))
             continue;
+        if (isinf(setup.spec.zfar) && rng_below(&r, 2))
+            hi = INFINITY;
         bias_enough_over(&setup, &goal, INFINITY, lo, hi, &from, &to);
         if (isnan(from)) {
             t.skipped++;
@@ -407,7 +409,8 @@ TEST(test_enough_over) {
         }
         TALLY(&t, from >= lo && from <= to && to <= hi, "from %a to %a", from, to);
         for (int k = 0; k <= 20; k++) {
-            const double z = k == 0 ? from : k == 20 ? to : fmin(from * pow(to / from, k / 20.0), to);
+            const double share = isinf(to) ? 1e6 : to / from;
+            const double z = k == 0 ? from : k == 20 ? to : fmin(from * pow(share, k / 20.0), to);
             TALLY(&t, isfinite(bias_needed(&setup, &goal, z)), "%s: none at %a of %a to %a", goal.api->name, z, from,
                   to);
         }
@@ -424,10 +427,20 @@ TEST(test_enough_over) {
     }
     TALLY(&t, up_to > 0 && onwards > 0, "%d, %d", (int)up_to, (int)onwards);
     tally_end(&t);
-    /* Orthographic depths below 0: the near plane has the depth 0, whose unit is nothing beside a slope. */
-    dp_spec spec = dp_spec_default();
+    /* Without a far plane a surface so steep has a bias only far off: a change of s n/z^2, for a unit of n/z 2^-23 or
+     * half of that, at most 2^31 of them. */
+    dp_spec open = dp_spec_default();
     dp_setup setup;
     double from, to;
+    open.zfar = INFINITY;
+    open.mapping = DP_MAPPING_REVERSED;
+    open.format = format_of("fp32");
+    assert_int_equal(dp_setup_init(&setup, &open), DP_OK);
+    bias_enough_over(&setup, &(bias_goal){.api = bias_api_find("metal"), .slope = 1e4}, INFINITY, 0.1, INFINITY, &from,
+                     &to);
+    assert_true(from >= 1e4 / 256 && from <= 1e4 / 128 && to > 1e10);
+    /* Orthographic depths below 0: the near plane has the depth 0, whose unit is nothing beside a slope. */
+    dp_spec spec = dp_spec_default();
     spec.ortho = 1;
     spec.znear = -5.0;
     spec.zfar = 50.0;

@@ -196,6 +196,27 @@ TEST(by_hand) {
     check_says(2, "orthographic", "bias -F d24 -m d3d --ortho --remedy ray:1e-5");
 }
 
+/* Just at the near plane a layer is not clipped, and before it, it is: near 1 and no far plane, of a wall at 2. */
+TEST(clipped_before_near) {
+    static const struct {
+        const char *name;
+        double amount;
+    } rows[] = {{"ndc", 0.5}, {"ray", 0.5}, {"normal", 1.0}, {"near", 2.0}};
+    for (size_t i = 0; i < 2 * sizeof rows / sizeof rows[0]; i++) {
+        dp_spec spec = dp_spec_default();
+        dp_setup setup;
+        const remedy *row = remedy_find(rows[i / 2].name);
+        spec.znear = 1.0;
+        spec.zfar = INFINITY;
+        spec.mapping = i % 2 == 0 ? DP_MAPPING_D3D : DP_MAPPING_REVERSED;
+        assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+        const bias_effect at = remedy_at(&setup, row, rows[i / 2].amount, 2.0);
+        assert_true(!at.limited && at.depth == (setup.reversed ? 1.0 : 0.0));
+        assert_true(remedy_at(&setup, row, rows[i / 2].amount, 2.0 - 1e-9).limited);
+        assert_true(!remedy_at(&setup, row, rows[i / 2].amount, 2.0 + 1e-9).limited);
+    }
+}
+
 /* D24, near .1, far 1000: at z a slope of s is s n f/((f - n) z^2) of window depth, which the pull has to cover beside
  * a code and three halves of a step of binary32. */
 TEST(by_hand_at_a_slant) {
