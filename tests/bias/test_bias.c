@@ -427,6 +427,9 @@ TEST(test_enough_over) {
     }
     TALLY(&t, up_to > 0 && onwards > 0, "%d, %d", (int)up_to, (int)onwards);
     tally_end(&t);
+}
+
+TEST(test_enough_by_hand) {
     /* Without a far plane a surface so steep has a bias only far off: a change of s n/z^2, for a unit of n/z 2^-23 or
      * half of that, at most 2^31 of them. */
     dp_spec open = dp_spec_default();
