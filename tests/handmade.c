@@ -91,14 +91,18 @@ void handmade_ihdr(handmade *h, uint32_t width, uint32_t height, int bits, int c
     handmade_chunk(h, "IHDR", header.at, header.size);
 }
 
+void handmade_zlib(handmade *h, const handmade *bytes) {
+    handmade_number(h, 0x7801, 2, 0);
+    handmade_number(h, 1, 1, 0); /* the last block, stored */
+    handmade_number(h, bytes->size, 2, 1);
+    handmade_number(h, ~(uint64_t)bytes->size, 2, 1);
+    handmade_bytes(h, bytes->at, bytes->size);
+    handmade_number(h, adler(bytes->at, bytes->size), 4, 0);
+}
+
 void handmade_idat(handmade *h, const handmade *rows) {
     handmade data = {.size = 0};
-    handmade_number(&data, 0x7801, 2, 0);
-    handmade_number(&data, 1, 1, 0); /* the last block, stored */
-    handmade_number(&data, rows->size, 2, 1);
-    handmade_number(&data, ~(uint64_t)rows->size, 2, 1);
-    handmade_bytes(&data, rows->at, rows->size);
-    handmade_number(&data, adler(rows->at, rows->size), 4, 0);
+    handmade_zlib(&data, rows);
     handmade_chunk(h, "IDAT", data.at, data.size);
 }
 

@@ -30,11 +30,13 @@ typedef struct handmade_dds_of {
 /** DDS: magic and headers of one image; pixels follow. */
 void handmade_dds(handmade *h, uint32_t width, uint32_t height, const handmade_dds_of *of);
 
+/** As zlib has them, in one stored block of Deflate. At most 65535 bytes. */
+void handmade_zlib(handmade *h, const handmade *bytes);
 /** A PNG chunk with its length and checksum. */
 void handmade_chunk(handmade *h, const char *type, const void *data, size_t size);
 /** Signature and IHDR. */
 void handmade_ihdr(handmade *h, uint32_t width, uint32_t height, int bits, int colour, int interlace);
-/** IDAT: `rows` as they are, filter bytes among them, in one stored block of Deflate. At most 65535 bytes. */
+/** IDAT: `rows` as they are, filter bytes among them, by handmade_zlib(). */
 void handmade_idat(handmade *h, const handmade *rows);
 /** A whole PNG of `pixel` bytes a pixel, row by row or in the seven passes of Adam7. */
 void handmade_png(handmade *h, uint32_t width, uint32_t height, int bits, int colour, int interlace, size_t pixel,

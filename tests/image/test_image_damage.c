@@ -237,7 +237,6 @@ TEST(dds_sentences) {
         {0, 20, 0x40,
          "DDS: no depth is read from pixels of 0 bits with these masks: save R32F, R16 or R24X8, or its pixels as "
          ".npy"},
-        {0, 28, 0x200, "DDS: it has several images, a cube, volume or array: save one slice"},
         {0, 6, 4, NULL}, /* no depth without its flag */
         {41, 32, 98, "DDS: no depth is read from DXGI format 98: save R32F, R16 or R24X8, or its pixels as .npy"},
         {41, 33, 4, "DDS: it has several images, a cube, volume or array: save one slice"},
@@ -262,12 +261,44 @@ TEST(dds_sentences) {
             fail_msg("row %zu: %s", i, error.text);
         image_free(&got);
     }
-    handmade h = {.size = 0};
-    handmade_dds(&h, 2, 2, &(handmade_dds_of){.flags = 4, .fourcc = 114});
-    handmade_bytes(&h, "0123456789abcdef", 16);
-    h.at[10] |= 0x02; /* the flag of the levels */
-    h.at[28] = 3;     /* and how many */
-    refused(&h, "DDS: it has 3 mip levels: save the largest alone");
+}
+
+/* Levels and slices count where their flag says that they are there; one of them is the image. */
+TEST(dds_of_several) {
+    static const char several[] = "DDS: it has several images, a cube, volume or array: save one slice";
+    static const struct {
+        uint32_t flag, word, value;
+        const char *sentence;
+    } rows[] = {
+        {0x20000, 7, 0, NULL},
+        {0x20000, 7, 1, NULL},
+        {0x20000, 7, 2, "DDS: it has 2 mip levels: save the largest alone"},
+        {0x20000, 6, 2, NULL},
+        {0x800000, 6, 0, NULL},
+        {0x800000, 6, 1, NULL},
+        {0x800000, 6, 2, several},
+        {0x800000, 7, 2, NULL},
+        {0, 28, 0x400, NULL},
+        {0, 28, 0x200, several},
+        {0, 28, 0x200000, several},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        handmade h = {.size = 0};
+        image got;
+        image_error error;
+        handmade_dds(&h, 2, 2, &(handmade_dds_of){.flags = 4, .fourcc = 114});
+        handmade_bytes(&h, "0123456789abcdef", 16);
+        h.at[10] |= (unsigned char)(rows[i].flag >> 16);
+        for (int k = 0; k < 4; k++)
+            h.at[4 * rows[i].word + (uint32_t)k] = (unsigned char)(rows[i].value >> 8 * k);
+        if (rows[i].sentence != NULL) {
+            refused(&h, rows[i].sentence);
+            continue;
+        }
+        if (!parse(h.at, h.size, &got, &error))
+            fail_msg("row %zu: %s", i, error.text);
+        image_free(&got);
+    }
 }
 
 TEST(png_sentences) {

@@ -369,54 +369,77 @@ typedef struct tiff_of {
     image_type type;
     uint32_t channels, photometric, orientation, format, bits, directories; /* 0: as the type has them */
     bool big, apart; /* apart: two channels, one behind the other */
+    bool wide;       /* BigTIFF */
+    uint32_t compression;
+    void (*pack)(handmade *to, const handmade *from);
 } tiff_of;
 
-/* One strip, or one for each channel. */
-static void make_tiff(handmade *h, const tiff_of *of) {
+static void tiff_samples(handmade *h, const tiff_of *of, uint32_t channels) {
     const int size = (int)image_type_size(of->type), little = !of->big;
-    const uint32_t channels = of->channels > 0 ? of->channels : 1;
-    const uint32_t bits = of->bits > 0 ? of->bits : 8 * (uint32_t)size;
-    const uint32_t format = of->format > 0 ? of->format : of->type >= IMAGE_F16 ? 3 : 1;
-    const uint32_t bytes = ALL * channels * (uint32_t)size, part = of->apart ? bytes / 2 : bytes;
-    const uint32_t entries[][3] = {/* tag, type, value */
-                                   {256, 3, ACROSS},
-                                   {257, 3, DOWN},
-                                   {258, 3, bits},
-                                   {259, 3, 1},
-                                   {262, 3, of->photometric > 0 ? of->photometric - 1 : 1},
-                                   {273, of->apart ? 3 : 4, 8},
-                                   {274, 3, of->orientation > 0 ? of->orientation : 1},
-                                   {277, 3, channels},
-                                   {278, 3, DOWN},
-                                   {279, of->apart ? 3 : 4, part},
-                                   {284, 3, of->apart ? 2 : 1},
-                                   {339, 3, format}};
-    enum { ENTRIES = sizeof entries / sizeof entries[0] };
-    handmade_text(h, of->big ? "MM" : "II");
-    handmade_number(h, 42, 2, little);
-    handmade_number(h, 8 + bytes, 4, little);
     for (size_t i = 0; i < (size_t)ALL * channels; i++)
         if (of->apart)
             handmade_number(h, bits_of(of->type, i % ALL) + i / ALL, size, little);
         else
             handmade_number(h, bits_of(of->type, i / channels) + i % channels, size, little);
+}
+
+/* A directory of numbers of 2 and 4 bytes: of more samples than two only two fit here, and two are enough. */
+static void tiff_directory(handmade *h, const tiff_of *of, const uint32_t (*entries)[3], int count, uint32_t channels,
+                           uint32_t part) {
+    const int little = !of->big, room = of->wide ? 8 : 4;
+    handmade_number(h, (uint64_t)count, of->wide ? 8 : 2, little);
+    for (int i = 0; i < count; i++) {
+        const bool of_strips = entries[i][0] == 273 || entries[i][0] == 279;
+        const bool several =
+            (of->apart && of_strips) || (channels > 2 && (entries[i][0] == 258 || entries[i][0] == 339));
+        const int size = entries[i][1] == 4 ? 4 : 2;
+        handmade_number(h, entries[i][0], 2, little);
+        handmade_number(h, entries[i][1], 2, little);
+        handmade_number(h, several ? 2 : 1, room, little);
+        handmade_number(h, entries[i][2], size, little);
+        if (size == 2)
+            handmade_number(h, several ? entries[i][2] + (entries[i][0] == 273 ? part : 0) : 0, 2, little);
+        handmade_number(h, 0, room - 4, little);
+    }
+}
+
+/* One strip, or one for each channel. */
+static void make_tiff(handmade *h, const tiff_of *of) {
+    const int size = (int)image_type_size(of->type), little = !of->big, head = of->wide ? 16 : 8;
+    const uint32_t channels = of->channels > 0 ? of->channels : 1;
+    handmade plain = {.size = 0}, packed = {.size = 0};
+    tiff_samples(&plain, of, channels);
+    if (of->pack != NULL)
+        of->pack(&packed, &plain);
+    const handmade *samples = of->pack != NULL ? &packed : &plain;
+    const uint32_t bytes = (uint32_t)samples->size, part = of->apart ? bytes / 2 : bytes;
+    const uint32_t entries[][3] = {/* tag, type, value */
+                                   {256, 3, ACROSS},
+                                   {257, 3, DOWN},
+                                   {258, 3, of->bits > 0 ? of->bits : 8 * (uint32_t)size},
+                                   {259, 3, of->pack != NULL ? of->compression : 1},
+                                   {262, 3, of->photometric > 0 ? of->photometric - 1 : 1},
+                                   {273, of->apart ? 3 : 4, (uint32_t)head},
+                                   {274, 3, of->orientation > 0 ? of->orientation : 1},
+                                   {277, 3, channels},
+                                   {278, 3, DOWN},
+                                   {279, of->apart ? 3 : 4, part},
+                                   {284, 3, of->apart ? 2 : 1},
+                                   {339, 3,
+                                    of->format > 0          ? of->format
+                                    : of->type >= IMAGE_F16 ? 3
+                                                            : 1}};
+    handmade_text(h, of->big ? "MM" : "II");
+    handmade_number(h, of->wide ? 43 : 42, 2, little);
+    if (of->wide) {
+        handmade_number(h, 8, 2, little);
+        handmade_number(h, 0, 2, little);
+    }
+    handmade_number(h, (uint64_t)head + bytes, of->wide ? 8 : 4, little);
+    handmade_bytes(h, samples->at, samples->size);
     for (uint32_t d = 0; d <= of->directories; d++) {
-        handmade_number(h, ENTRIES, 2, little);
-        for (size_t i = 0; i < ENTRIES; i++) {
-            const bool of_strips = entries[i][0] == 273 || entries[i][0] == 279;
-            const bool several =
-                (of->apart && of_strips) || (channels > 2 && (entries[i][0] == 258 || entries[i][0] == 339));
-            handmade_number(h, entries[i][0], 2, little);
-            handmade_number(h, entries[i][1], 2, little);
-            handmade_number(h, several ? 2 : 1, 4, little); /* of more only two fit here, and two are enough */
-            if (entries[i][1] == 4) {
-                handmade_number(h, entries[i][2], 4, little);
-            } else {
-                handmade_number(h, entries[i][2], 2, little);
-                handmade_number(h, several ? entries[i][2] + (entries[i][0] == 273 ? part : 0) : 0, 2, little);
-            }
-        }
-        handmade_number(h, d < of->directories ? h->size + 4 : 0, 4, little);
+        tiff_directory(h, of, entries, sizeof entries / sizeof entries[0], channels, part);
+        handmade_number(h, d < of->directories ? h->size + (of->wide ? 8 : 4) : 0, of->wide ? 8 : 4, little);
     }
 }
 
@@ -430,14 +453,15 @@ TEST(tiff_types) {
     if (!tiff_is_read())
         skip();
     for (int type = 0; type < IMAGE_TYPE_COUNT; type++)
-        for (int big = 0; big < 2; big++)
+        for (int how = 0; how < 4; how++)
             for (uint32_t channels = 1; channels <= 2; channels++) {
+                const bool big = how % 2 != 0, wide = how / 2 != 0;
                 handmade h = {.size = 0};
                 image img;
                 image_error error;
                 if (ALL * channels * image_type_size((image_type)type) > HANDMADE_SIZE - 300)
                     continue;
-                make_tiff(&h, &(tiff_of){.type = (image_type)type, .channels = channels, .big = big != 0});
+                make_tiff(&h, &(tiff_of){.type = (image_type)type, .channels = channels, .big = big, .wide = wide});
                 if (!image_parse(h.at, h.size, &img, &error))
                     fail_msg("%s: %s", image_type_name((image_type)type), error.text);
                 assert_int_equal(img.file, IMAGE_TIFF);
@@ -460,6 +484,64 @@ TEST(tiff_apart) {
     assert_int_equal(img.channels, 2);
     assert_bits(&img, IMAGE_U16, 0);
     image_free(&img);
+}
+
+/* Rows of bytes as they are. */
+static void pack_bits(handmade *to, const handmade *from) {
+    const size_t row = from->size / DOWN; /* at most 128 */
+    for (size_t at = 0; at < from->size; at += row) {
+        handmade_number(to, row - 1, 1, 1);
+        handmade_bytes(to, from->at + at, row);
+    }
+}
+
+/* Codes of 9 bits, the highest first: the table is cleared before it has more. */
+static void pack_lzw(handmade *to, const handmade *from) {
+    uint64_t bits = 0;
+    int count = 0;
+    for (size_t at = 0; at <= from->size; at++) {
+        const uint32_t codes[] = {256, at < from->size ? from->at[at] : 257};
+        for (int k = at % 200 == 0 ? 0 : 1; k < 2; k++) {
+            bits = bits << 9 | codes[k];
+            for (count += 9; count >= 8; count -= 8)
+                handmade_number(to, bits >> (count - 8) & 255, 1, 1);
+        }
+    }
+    handmade_number(to, bits << (8 - count) & 255, 1, 1);
+}
+
+/* A frame of one block as it is. */
+static void pack_zstd(handmade *to, const handmade *from) {
+    handmade_number(to, 0xFD2FB528, 4, 1);
+    handmade_number(to, 0x60, 1, 1);
+    handmade_number(to, from->size - 256, 2, 1);
+    handmade_number(to, from->size << 3 | 1, 3, 1);
+    handmade_bytes(to, from->at, from->size);
+}
+
+/* Those that lose nothing are not said to. */
+TEST(tiff_compressions) {
+    static const struct {
+        uint32_t compression;
+        void (*pack)(handmade *to, const handmade *from);
+    } rows[] = {{5, pack_lzw}, {8, handmade_zlib}, {32773, pack_bits}, {32946, handmade_zlib}, {50000, pack_zstd}};
+    if (!tiff_is_read())
+        skip();
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        handmade h = {.size = 0};
+        image img;
+        image_error error;
+        make_tiff(&h, &(tiff_of){.type = IMAGE_U16, .compression = rows[i].compression, .pack = rows[i].pack});
+        if (!image_parse(h.at, h.size, &img, &error)) {
+            if (rows[i].pack != pack_zstd) /* which the library may lack */
+                fail_msg("%u: %s", rows[i].compression, error.text);
+            continue;
+        }
+        if (img.lossy != NULL)
+            fail_msg("%u: said to have lost by %s", rows[i].compression, img.lossy);
+        assert_bits(&img, IMAGE_U16, 0);
+        image_free(&img);
+    }
 }
 
 /* A block of 8 by 8 samples, all 128, as JPEG in a TIFF: it is read, and told to be what a compression made of depths.

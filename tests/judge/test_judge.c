@@ -476,6 +476,41 @@ TEST(test_read) {
     unlink(path);
 }
 
+/* The same pairs in every way that programs write them, and half a unit of the last digit of their values. */
+TEST(test_forms) {
+    static const struct {
+        const char *text;
+        double absolute, relative;
+    } rows[] = {{"0.25,1.5\n0.5,2.25\n", 0.5e-2, 5e-3},
+                {"\xEF\xBB\xBF"
+                 "0.25,1.5\n0.5,2.25\n",
+                 0.5e-2, 5e-3},
+                {"\xEF\xBB\xBF"
+                 "depth,value\n0.25,1.5\n0.5,2.25",
+                 0.5e-2, 5e-3},
+                {"0.25\t1.5\r\n\r\n0.5\t2.25\r\n", 0.5e-2, 5e-3},
+                {"depth value\n# a remark\n  # 7 8\n0.25 1.5\n 0.5   2.25  \n", 0.5e-2, 5e-3},
+                {"\"0.25\";\"1.5\"\n\"0.5\";\"2.25\"\n", 0.5e-2, 5e-3},
+                {".25, +1.500e0\n5e-1, 225e-2\n", 0.5e-3, 5e-4},
+                {"25.0e-2,1.50E+00\n0.0005e3,0.00225e+3\n", 0.5e-2, 5e-3},
+                {"0.25,0.0015e3\n0.5,22500e-4\n", 0.5e-4, 5e-5}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        char error[PAIRS_ERROR_SIZE], path[] = "/tmp/depthprec-judge-XXXXXX";
+        judge_pairs p;
+        FILE *out = fdopen(mkstemp(path), "w");
+        fputs(rows[i].text, out);
+        fclose(out);
+        assert_int_equal(judge_pairs_read(path, &p, error), 0);
+        unlink(path);
+        if (p.count != 2 || p.pairs[0].in != 0.25 || p.pairs[0].out != 1.5 || p.pairs[1].in != 0.5 ||
+            p.pairs[1].out != 2.25 || p.nan_count != 0)
+            fail_msg("%zu pairs of: %s", p.count, rows[i].text);
+        assert_relative(p.out_digits.absolute, rows[i].absolute, 1e-9);
+        assert_relative(p.out_digits.relative, rows[i].relative, 1e-9);
+        judge_pairs_free(&p);
+    }
+}
+
 /* A function that loses a little more than it must is right still, and not right times 1.0000012. */
 TEST(test_factor_of_one) {
     const double n = 0.1, f = 1000;

@@ -62,3 +62,105 @@ TEST(test_depths_to_judge) {
     json_decref(root);
     printed_free(&p);
 }
+
+/* Whatever fits is listed: what is named, the same function by another name, and what fits, too. */
+TEST(test_all_that_fit) {
+    char bytes[512] = "";
+    for (int k = 0; k < 4; k++) { /* 252.2 and its like of 255 beside far, in bytes: from near the share is the same */
+        const double share = fmin((252.2 + k) / 255, 1);
+        const size_t used = strlen(bytes);
+        snprintf(bytes + used, sizeof bytes - used, "%.17g,%.17g\n", (1 - 1 / (share * 10)) / (1 - 0.1),
+                 (252 + k) / 255.0);
+    }
+    const struct {
+        const char *pairs, *options, *said, *computes[3], *mapping[3];
+    } rows[] = {{"0,0.1\n0.25,2.575\n0.5,5.05\n0.75,7.525\n1,10\n",
+                 "-n 0.1 -f 10 -m d3d",
+                 "the same  reciprocal of eye depth from window depth: reversed",
+                 {"eye depth", "reciprocal of eye depth"},
+                 {"d3d", "reversed"}},
+                {bytes,
+                 "-n 1 -f 10 -m d3d",
+                 "fits, too the way from near to far",
+                 {"eye depth over far", "the way from near to far"},
+                 {"d3d", "d3d"}},
+                {"0,0.5\n0.25,5.375\n0.5,10.25\n0.75,15.125\n1,20\n",
+                 "-n 0.5 -f 20 -m gl --ortho",
+                 "right: eye depth",
+                 {"eye depth"},
+                 {"gl"}}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const char *path = scratch_text("fits.csv", "%s", rows[i].pairs);
+        check_says(0, rows[i].said, "judge --pairs %s %s", path, rows[i].options);
+        json_t *root = json_printed(0, "judge --pairs %s %s --json", path, rows[i].options);
+        size_t count = 0;
+        for (; rows[i].computes[count] != NULL; count++) {
+            char at[32];
+            snprintf(at, sizeof at, "fits[%zu].computes", count);
+            assert_string_equal(text_at(root, at), rows[i].computes[count]);
+            snprintf(at, sizeof at, "fits[%zu].mapping", count);
+            assert_string_equal(text_at(root, at), rows[i].mapping[count]);
+        }
+        assert_int_equal(json_array_size(node_at(root, "fits")), count);
+        json_decref(root);
+    }
+}
+
+/* The language of a file is that of its name; what is wrong in it is said before a driver is asked. */
+TEST(test_languages_by_name) {
+    static const struct {
+        const char *name, *said;
+    } rows[] = {{"f.glsl", "undeclared identifier (--define"},
+                {"f.frag", "undeclared identifier (--define"},
+                {"hlsl", "undeclared identifier (--define"},
+                {"f.hlsl", "unknown variable"},
+                {"f.hlsli", "unknown variable"},
+                {"f.fx", "unknown variable"},
+                {"f.cginc", "unknown variable"},
+                {"f.usf", "unknown variable"},
+                {"f.ush", "unknown variable"}};
+    if (system("command -v glslangValidator >/dev/null 2>&1") != 0)
+        skip();
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        char said[64];
+        snprintf(said, sizeof said, ":1: 'mystery' : %s", rows[i].said);
+        check_says(2, said, "judge %s:f", scratch_text(rows[i].name, "float f(float d) { return d * mystery; }\n"));
+    }
+}
+
+/* Ends of lines change nothing, within a directive that goes on, too: the shader that is made is the same but for them.
+ */
+TEST(test_ends_of_lines) {
+    static const char file[] =
+        "#version 330 core\n"
+        "uniform float uNear, uFar; // of the camera\n"
+        "#define SPAN \\\n    (uFar \\\n     - uNear)\n"
+        "#if defined(OTHER) \\\n    && OTHER > 1\n#define NDC(d) (d)\n"
+        "#else\n#define NDC(d) ((d) * \\\n                2.0 - 1.0)\n#endif\n"
+        "/* float f(float d)\n   { return d; } */\n"
+        "float f(float d) {\n    return 2.0 * uNear * uFar / (uFar + uNear - NDC(d) * SPAN);\n}\n"
+        "void main() { gl_FragDepth = f(0.5); }\n";
+    const dp_spec spec = dp_spec_default();
+    dp_setup setup;
+    char other[2 * sizeof file], error[WRITTEN_TEXT_SIZE] = "", *to = other;
+    static written plain, ended;
+    for (const char *c = file; *c != '\0'; *to++ = *c++)
+        if (*c == '\n')
+            *to++ = '\r';
+    *to = '\0';
+    assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+    if (!written_make(file, "f", false, &setup, NULL, 0, 0, &plain, error) ||
+        !written_make(other, "f", false, &setup, NULL, 0, 0, &ended, error))
+        fail_msg("%s", error);
+    to = ended.text;
+    for (const char *c = ended.text; *c != '\0'; c++)
+        if (*c != '\r')
+            *to++ = *c;
+    *to = '\0';
+    assert_string_equal(ended.text, plain.text);
+    assert_string_equal(ended.defines, plain.defines);
+    assert_non_null(strstr(plain.text, "- uNear)"));
+    assert_null(strstr(plain.text, "gl_FragDepth"));
+    free(plain.text);
+    free(ended.text);
+}

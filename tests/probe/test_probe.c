@@ -8,6 +8,7 @@
 #include "core/bits.h"
 #include "depthprec/arith.h"
 #include "nvidia.h"
+#include "predicted.h"
 #include "probe/judge.h"
 #include "support.h"
 
@@ -321,6 +322,57 @@ TEST(test_not_found) {
         else
             assert_string_equal(r.arith, "mesa");
         *code = kept;
+    }
+    probe_free(&r);
+}
+
+/* A scene in each format, and another one in two, as rasterizers draw them: one is named where it draws all of them, to
+ * the last pixel. */
+TEST(test_rasterizer) {
+    static const struct {
+        const char *scene[SHOT_FORMATS], *predicted[SHOT_FORMATS]; /* null: not drawn */
+        int off; /* a pixel of the scene of that format is otherwise; of the other scene, behind those */
+        const char *named;
+    } rows[] = {
+        {{"llvmpipe", "llvmpipe", "llvmpipe"}, {"llvmpipe", "llvmpipe", NULL}, -1, "llvmpipe"},
+        {{NULL, "softpipe", NULL}, {NULL, "softpipe", NULL}, -1, "softpipe"},
+        {{"swiftshader", NULL, "swiftshader"}, {NULL, NULL, "swiftshader"}, -1, "swiftshader"},
+        {{"llvmpipe", "softpipe", "softpipe"}, {NULL, "softpipe", "softpipe"}, -1, NULL},
+        {{"softpipe", "softpipe", "llvmpipe"}, {NULL, "llvmpipe", "llvmpipe"}, -1, NULL},
+        {{"swiftshader", "llvmpipe", "llvmpipe"}, {NULL, NULL, NULL}, -1, NULL},
+        {{"llvmpipe", "llvmpipe", "llvmpipe"}, {NULL, NULL, NULL}, 0, NULL},
+        {{"llvmpipe", "llvmpipe", "llvmpipe"}, {NULL, NULL, NULL}, 2, NULL},
+        {{"llvmpipe", "llvmpipe", "llvmpipe"}, {"llvmpipe", "llvmpipe", NULL}, 3, NULL},
+        {{"llvmpipe", "llvmpipe", "llvmpipe"}, {"swiftshader", "llvmpipe", NULL}, -1, NULL},
+        {{NULL, NULL, NULL}, {NULL, NULL, NULL}, -1, NULL},
+    };
+    static probe_result r;
+    const device is = {1, .reciprocal = true, .float_step = 1, .code_step = 1};
+    make(&r, &is);
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        for (int k = 0; k < 2 * SHOT_FORMATS; k++) {
+            shot *s =
+                plan_find(&r.plan, k < SHOT_FORMATS ? PLAN_SCENE : PLAN_PREDICTED, (shot_format)(k % SHOT_FORMATS));
+            const char *by = k < SHOT_FORMATS ? rows[i].scene[k] : rows[i].predicted[k - SHOT_FORMATS];
+            s->drawn = by != NULL;
+            if (by != NULL)
+                predict(by, s, s->code);
+            s->code[SHOT_PIXELS - 1] ^= k == rows[i].off;
+        }
+        r.count = 0;
+        judge_triangles(&r);
+        if ((r.raster == NULL) != (rows[i].named == NULL) || (r.raster != NULL && strcmp(r.raster, rows[i].named) != 0))
+            fail_msg("row %zu: %s", i, r.raster != NULL ? r.raster : "none");
+        for (int k = 0; k < 2 * SHOT_FORMATS; k++) {
+            const bool first = k < SHOT_FORMATS;
+            const char *by = first ? rows[i].scene[k] : rows[i].predicted[k - SHOT_FORMATS];
+            if (by == NULL || (!first && rows[i].named == NULL))
+                continue;
+            const probe_finding *f = find(&r, first ? "rasterizer" : "prediction", probe_format_name(k % SHOT_FORMATS));
+            assert_non_null(strstr(f->words, by));
+            assert_true(f->cases == SHOT_PIXELS && f->cases - f->hits == (k == rows[i].off));
+            assert_true((f->sure == PROBE_SURE) == (k != rows[i].off));
+        }
     }
     probe_free(&r);
 }

@@ -9,9 +9,9 @@
 #include <string.h>
 
 #include "core/bits.h"
+#include "predicted.h"
 #include "probe/plan.h"
 #include "probe/probe.h"
-#include "raster_named.h"
 #include "system/sandbox.h"
 
 enum { RANGES = 12, SHOTS = RANGES * SHOT_FORMATS, SECONDS = 300 };
@@ -70,37 +70,17 @@ static const char *take(job *j) {
     return j->machine.error[0] != '\0' ? j->machine.error : NULL;
 }
 
-static void predict(const raster_target *target, const shot *s, uint32_t *code) {
-    const uint32_t clear = dp_format_encode(&target->format, DP_ROUND_NEAREST, (double)SHOT_CLEAR);
-    for (int i = 0; i < SHOT_PIXELS; i++)
-        code[i] = clear;
-    for (uint32_t i = 0; i + 2 < s->count; i += 3) {
-        raster_vertex v[3];
-        raster_triangle drawn;
-        memcpy(v, s->vertex[i], sizeof v);
-        if (raster_set_up(target, v, &drawn) != RASTER_OK)
-            continue;
-        for (int p = 0; p < drawn.count; p++)
-            for (int y = drawn.piece[p].y0, x0, x1; y < drawn.piece[p].y1; y++)
-                if (raster_span(target, &drawn.piece[p], y, &x0, &x1))
-                    raster_codes(target, &drawn.piece[p], y, x0, x1, &code[y * SHOT_SIZE + x0]);
-    }
-}
-
 static void compare(const job *j, tally *t) {
-    static const char *const names[] = {[SHOT_D16] = "unorm16", [SHOT_D24] = "unorm24", [SHOT_D32F] = "fp32"};
     static uint32_t code[SHOT_PIXELS];
     for (size_t i = 0; i < j->plan.count; i++) {
         const shot *s = &j->plan.shot[i];
         if (!s->drawn)
             continue;
-        raster_target target = target_of(j->by->raster, names[s->format], SHOT_SIZE, SHOT_SIZE, dp_path_best());
-        raster_target_range(&target, s->range[0], s->range[1]);
-        predict(&target, s, code);
+        predict(j->by->raster, s, code);
         for (int k = 0; k < SHOT_PIXELS; k++)
             TALLY(t, code[k] == s->code[k], "%s %s, %a to %a: pixel %d %d is %08x, drawn %08x", j->by->raster,
-                  names[s->format], (double)s->range[0], (double)s->range[1], k % SHOT_SIZE, k / SHOT_SIZE, code[k],
-                  s->code[k]);
+                  probe_format_name(s->format), (double)s->range[0], (double)s->range[1], k % SHOT_SIZE, k / SHOT_SIZE,
+                  code[k], s->code[k]);
     }
 }
 

@@ -212,7 +212,21 @@ async function waysOut() {
     return `${pressed} ways, ${biases} of them biases`;
 }
 
+// Beside each control stands what the command's help says of its option.
+async function explained() {
+    const page = await open(), all = await page.evaluate(() => [...document.querySelectorAll("[data-option]")].map((one) =>
+        ({ verb: one.closest("[data-asks]")?.dataset.asks ?? "table", option: one.dataset.option, title: one.title })));
+    const verbs = [...new Set(all.map(({ verb }) => verb))], helps = await native(verbs.map((verb) => [verb, "--help"]));
+    for (const { verb, option, title } of all) {
+        const words = helps[verbs.indexOf(verb)].out.replaceAll(/\s+/g, " "), at = words.indexOf(title);
+        demand(title.length > 20 && at > 0 && words.slice(at - 60, at).includes(`--${option}`), `${verb} --${option}: ${title}`);
+    }
+    await close(page);
+    return `${all.length} controls`;
+}
+
 export async function agrees() {
     await test("each way out that the page names does, once it is pressed", waysOut);
+    await test("each control is explained as the command's help does", explained);
     await test("what is on one screen agrees with itself, whatever is dragged and typed", () => agree(process.env.DEPTHPREC_FULL ? 300 : 80));
 }

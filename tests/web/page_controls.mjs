@@ -242,19 +242,6 @@ async function plainNames() {
     await close(page);
 }
 
-// Beside each control stands what the command's help says of its option.
-async function explained() {
-    const page = await open(), all = await page.evaluate(() => [...document.querySelectorAll("[data-option]")].map((one) =>
-        ({ verb: one.closest("[data-asks]")?.dataset.asks ?? "table", option: one.dataset.option, title: one.title })));
-    const verbs = [...new Set(all.map(({ verb }) => verb))], helps = await native(verbs.map((verb) => [verb, "--help"]));
-    for (const { verb, option, title } of all) {
-        const words = helps[verbs.indexOf(verb)].out.replaceAll(/\s+/g, " "), at = words.indexOf(title);
-        demand(title.length > 20 && at > 0 && words.slice(at - 60, at).includes(`--${option}`), `${verb} --${option}: ${title}`);
-    }
-    await close(page);
-    return `${all.length} controls`;
-}
-
 // A plane that is dragged pushes the other; a field that is refused says so itself.
 async function planes() {
     const page = await open(), values = () => page.evaluate(() => ["near", "far"].map((name) => document.querySelector(`#${name}-A`).value).join(" "));
@@ -351,6 +338,5 @@ export async function controls() {
     await test("the second picture: reversed fp32, or B; every mapping is drawn", pictures);
     await test("gap and distance are lengths that stay when the camera changes", worldIsFixed);
     await test("buttons of plain names", plainNames);
-    await test("each control is explained as the command's help does", explained);
     await test("a plane pushes the other, a refused field is marked", planes);
 }
