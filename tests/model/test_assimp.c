@@ -169,6 +169,26 @@ TEST(nodes) {
     model_free(&m);
 }
 
+/* A material is seen from both sides, see-through, both or neither. */
+TEST(materials) {
+    static const char clear[] = "<transparency><float>0.5</float></transparency>",
+                      sides[] = "<extra><technique profile=\"GOOGLEEARTH\"><double_sided>1</double_sided></technique>"
+                                "</extra>";
+    static const char lambert[] = "</lambert></technique>";
+    const char *at = strstr(collada, lambert);
+    for (int k = 0; k < 4; k++) {
+        char text[sizeof collada + sizeof clear + sizeof sides];
+        model m;
+        snprintf(text, sizeof text, "%.*s%s%s%s%s", (int)(at - collada), collada, k & 1 ? clear : "", lambert,
+                 k & 2 ? sides : "", at + strlen(lambert));
+        must_read(written("m.dae", text), &m);
+        for (size_t i = 0; i < m.surfaces; i++)
+            if (m.surface[i].blended != (k & 1) || m.surface[i].two_sided != k >> 1)
+                fail_msg("%d: blended %d, two-sided %d", k, m.surface[i].blended, m.surface[i].two_sided);
+        model_free(&m);
+    }
+}
+
 /* Metres, and y up, whatever the file has. */
 TEST(buildings) {
     static const double leaf[3][3] = {{0, 0, 0}, {3, 0, 0}, {0, 4, 0}};
@@ -192,7 +212,9 @@ TEST(axes) {
                  {3, 5, -4}},
                 {"P: \"UpAxis\", \"int\", \"Integer\", \"\",2", {4, 5, 3}}, /* front is 2, too */
                 {"P: \"UpAxis\", \"int\", \"Integer\", \"\",1\n\t\tP: \"CoordAxisSign\", \"int\", \"Integer\", \"\",-1",
-                 {-3, 4, 5}}};
+                 {-3, 4, 5}},
+                {"P: \"UpAxis\", \"int\", \"Integer\", \"\",2\n\t\tP: \"UpAxisSign\", \"int\", \"Integer\", \"\",-1",
+                 {4, -5, -3}}}; /* and turned over: what is up is down, and in front behind */
     static const char up[] = "P: \"UpAxis\", \"int\", \"Integer\", \"\",1", last[] = "0,40,0\n";
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         char text[2048];

@@ -99,6 +99,21 @@ TEST(obj_surfaces) {
     model_free(&m);
 }
 
+/* A surface of no object stands at the node of its group. */
+TEST(obj_groups) {
+    static const char *const rows[][3] = {
+        {"", "", ""}, {"o house\n", "house", ""}, {"g roof\n", "roof", "roof"}, {"g roof\no house\n", "house", "roof"}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        char file[256];
+        model m;
+        snprintf(file, sizeof file, SQUARE "%sf 1 2 3\n", rows[i][0]);
+        must_read(file, true, &m);
+        assert_string_equal(m.surface[0].node, rows[i][1]);
+        assert_string_equal(m.surface[0].mesh, rows[i][2]);
+        model_free(&m);
+    }
+}
+
 /* Names are UTF-8: of a Latin-1 umlaut, a cut off character and a control character a question mark is left. */
 TEST(obj_names) {
     model m;

@@ -240,6 +240,8 @@ TEST(damaged_paths) {
     check_says(2, "line 65537: must be at most 65536 eyes", "scene " STREET " --path %s", name);
     check_says(2, "must be at most 8388608 bytes", "scene " STREET " --path /dev/zero");
     check_says(3, "No such file", "scene " STREET " --path %s.none", name);
+    scratch_text("bad.txt", "-1e12 1e12 0 1e12 0 -1e12\n");
+    check_says(0, "from -1e+12 1e+12 0, looking along", "scene " STREET " --path %s", name);
 }
 
 /* ---- Cameras of the model ---------------------------------------------------------------------------------------- */
@@ -264,6 +266,8 @@ TEST(model_cameras) {
                 {"--camera Door -n 1", 1, 500, 90 / M_PI},
                 {"--camera Door -n 600 -f 2000", 600, 2000, 90 / M_PI},
                 {"--camera Door -n 400", 400, 500, 90 / M_PI},
+                {"--camera Door --hfov 90 --viewport 900x900", 0.25, 500, 90}, /* as wide as high */
+                {"--camera Door --preset three", 0.1, 2000, 50},
                 {"--camera Odd --fov 70 -f 99", 0.25, 99, 70}};
     static const refused_row wrong[] = {
         {"--camera door", "--camera: must be Door, Plan, 3 or Odd, got 'door'; did you mean 'Door'?", 2},
