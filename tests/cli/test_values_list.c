@@ -5,6 +5,7 @@
 #include "bias/bias.h"
 #include "camera/platform.h"
 #include "camera/presets.h"
+#include "cli/option/option.h"
 #include "method/choose.h"
 #include "plot/figure.h"
 #include "printed.h"
@@ -420,4 +421,66 @@ TEST(sort_keys) {
     }
     assert_true(keys > 30);
     printed_free(&word);
+}
+
+/* ---- Completions ------------------------------------------------------------------------------------------------- */
+
+/* The line of a script that begins so, cut off at its end; null: none. One of a static string. */
+static const char *line_of(const char *script, const char *begins) {
+    static char line[8192];
+    const char *at = script;
+    while (at != NULL && strncmp(at + strspn(at, " "), begins, strlen(begins)) != 0) {
+        at = strchr(at, '\n');
+        at += at != NULL;
+    }
+    if (at != NULL)
+        snprintf(line, sizeof line, "%.*s", (int)strcspn(at, "\n"), at + strspn(at, " "));
+    return at != NULL ? line : NULL;
+}
+
+/* The options of all commands by their rows, each with its letter, its words, and the commands that take it. */
+static void check_completed(const char *shell, const option_row *row, const char *script) {
+    char begins[2048], text[OPTION_TEXT_SIZE], words[NAMES_SIZE] = "";
+    const bool fish = strcmp(shell, "fish") == 0, argument = *option_argument(row, text) != '\0';
+    const char letter[] = {row->letter, '\0'};
+    snprintf(begins, sizeof begins,
+             fish ? "complete -c depthprec -n '__fish_seen_subcommand_from" : "--%s%s%s) offered='", row->name,
+             *letter != '\0' ? "|-" : "", letter);
+    if (row->names != NULL)
+        names_join(row->names, " ", " ", words);
+    for (size_t i = 0; command_get(i) != NULL; i++) {
+        const command_row *v = command_get(i);
+        const bool takes = option_used(v, ~0U, option_find(v, row->name)).row != NULL;
+        char of[64], option[64];
+        if (fish && takes)
+            snprintf(begins + strlen(begins), sizeof begins - strlen(begins), " %s", v->name);
+        if (fish)
+            continue;
+        snprintf(of, sizeof of, "%s) offered='", v->name);
+        snprintf(option, sizeof option, " --%s", row->name);
+        const char *line = line_of(script, of), *found = line != NULL ? strstr(line, option) : NULL;
+        while (found != NULL && strchr(" '", found[strlen(option)]) == NULL)
+            found = strstr(found + 1, option);
+        if ((found != NULL) != takes)
+            fail_msg("%s: %s and --%s: %s", shell, v->name, row->name, line);
+    }
+    if (fish)
+        snprintf(begins + strlen(begins), sizeof begins - strlen(begins), "' -l %s%s%s%s%s", row->name,
+                 *letter != '\0' ? " -s " : "", letter, argument ? " -r" : "", row->names != NULL ? " -fa '" : "");
+    const char *line = fish || argument ? line_of(script, begins) : NULL;
+    if ((fish || argument) && (line == NULL || strncmp(line + strlen(begins), words, strlen(words)) != 0))
+        fail_msg("%s: no '%s%s'", shell, begins, words);
+}
+
+TEST(completions) {
+    static const char *const shells[] = {"bash", "zsh", "fish"};
+    const option_row *all[OPTIONS_MAX + 1];
+    options_all(all);
+    for (size_t i = 0; i < sizeof shells / sizeof shells[0]; i++) {
+        printed p = print_of("completions %s", shells[i]);
+        for (size_t k = 0; all[k] != NULL; k++)
+            if (k == 0 || strcmp(all[k]->name, all[k - 1]->name) != 0)
+                check_completed(shells[i], all[k], p.out);
+        printed_free(&p);
+    }
 }
