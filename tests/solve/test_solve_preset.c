@@ -49,6 +49,14 @@ static bool keeps(double zoom, double latitude, int height, double limit, double
            dp_separation(&setup, at) <= limit * (surely ? 1 + 1e-9 : 1 - 1e-9);
 }
 
+/* Whether the planes just beyond an end leave the depth out, or the middle. */
+static bool is_left_out(double zoom, double latitude, int height, double z) {
+    double focus;
+    const dp_setup setup = globe_at(zoom, latitude, height, &focus);
+    const double at = isnan(z) ? focus : z;
+    return at < setup.spec.znear || at > setup.spec.zfar;
+}
+
 static bool fails_beside(const preset_problem *p, double end, int side) {
     for (double apart = 1e-13; apart < 1e-9; apart *= 2)
         if (!preset_passes(p, end * (1 + side * apart)))
@@ -59,7 +67,7 @@ static bool fails_beside(const preset_problem *p, double end, int side) {
 TEST(test_zoom) {
     rng r = rng_make("zooms");
     tally t = {.name = "zooms that keep a separation"};
-    int ends = 0, inside = 0, failing = 0;
+    int ends = 0, inside = 0, failing = 0, outside[2] = {0};
     for (int i = 0; i < 60; i++) {
         const double latitude = floor(rng_uniform(&r, -80, 80)), limit = rng_log(&r, 0.01, 1e4);
         const int height = 200 + (int)rng_below(&r, 1500);
@@ -78,12 +86,29 @@ TEST(test_zoom) {
             TALLY(&t, keeps(end, latitude, height, limit, z, true), "%s %g %g: fails at %.17g", text, limit, z, end);
             TALLY(&t, !turns || fails_beside(&p, end, k == 0 ? -1 : 1), "%s %g %g: passes beside %.17g", text, limit, z,
                   end);
+            const bool out = is_left_out(end * (k == 0 ? 1 - 1e-9 : 1 + 1e-9), latitude, height, z);
+            outside[out] += turns;
+            TALLY(&t, !turns || out == (k == 0 ? a.below_outside : a.above_outside), "%s %g %g: %sleft out at %.17g",
+                  text, limit, z, out ? "" : "not ", end);
         }
         for (int k = 0; k <= 260 && !a.possible; k++)
             TALLY(&t, !keeps(k / 10., latitude, height, limit, z, false), "%s %g %g: %g", text, limit, z, k / 10.);
     }
+    assert_true(outside[0] > 10 && outside[1] > 3);
     assert_true(ends > 40 && inside > 5000 && 1000 * failing < inside);
     tally_end(&t);
+}
+
+/* The larger a model, the farther off is the near plane of its viewer, a hundredth of its diagonal, at last behind z.
+ */
+TEST(test_left_out_above) {
+    const preset_problem p = problem_of("gltf-viewer", 0.01, 40);
+    preset_answer a;
+    preset_solve(&p, &a);
+    assert_true(a.above && a.above_outside && fabs(a.to - 4000) < 1e-8 && a.below && !a.below_outside);
+    printed text = print_of("solve --preset gltf-viewer --separation 1cm --at 40m");
+    assert_true(strstr(text.out, "above  ") != NULL && strstr(text.out, "below  ") == NULL);
+    printed_free(&text);
 }
 
 /* The program says the same number, rounded to the side on which it holds. */
