@@ -579,6 +579,16 @@ static void check_where(const solve_case *c, const char *text) {
         assert_true(from == NULL && at != NULL && sscanf(at, " at z = %lf", &lo) == 1 && lo == c->lo);
 }
 
+static size_t unsure[2]; /* far planes and near ones that are not certain */
+
+/* On which side of a plane that is not the last for certain others may do, beyond all that pass. */
+static void check_suffices(const values *v, bool near) {
+    const bool certain = flag_at(root, "answer.certain");
+    unsure[near] += !certain;
+    assert_true((strstr(v->told, "a smaller one may suffice") != NULL) == (near && !certain));
+    assert_true((strstr(v->told, "a larger one may suffice") != NULL) == (!near && !certain));
+}
+
 static void check_text(values *v, const solve_case *c, const char *arguments) {
     const bool in_float = strcmp(text_at(root, "answer.model"), "float") == 0;
     char label[128], under[PATH_SIZE];
@@ -597,6 +607,7 @@ static void check_text(values *v, const solve_case *c, const char *arguments) {
         values_under(v, "answer.");
         if (c->possible) {
             check_line(v, text, label, "plane:15");
+            check_suffices(v, isnan(c->znear));
             check_text_passing(v, c, text);
         }
         if (in_float && value_at(v, "answer.lattice.possible")->number != 0)
@@ -628,6 +639,7 @@ TEST(each_number) {
         free(text);
         values_free(&v);
     }
+    assert_true(unsure[0] > 0 && unsure[1] > 0);
 }
 
 /* One format and no mapping: the answer is the only one that does it, a logarithm; the library says which do. */
