@@ -27,6 +27,8 @@ static const solve_case cases[] = {
      5000, true, NAN, 10000, "exact"},
     {"-n 0.1 -F unorm16 -m d3d --for far --error 0.024 --at 17.77", "far", QUANTITY_ERROR, 0.024, 17.77, 17.77, true,
      0.1, NAN, "exact"},
+    {"-n 0.1 -F unorm24 -m d3d --for far --error 0.07451 --at 500", "far", QUANTITY_ERROR, 0.07451, 500, 500, true, 0.1,
+     NAN, "staged"},
     {"--for far -n 0.1 -F fp16 -m log --log-c 2.5 --error 0.0036 --range 2:5", "far", QUANTITY_ERROR, 0.0036, 2, 5,
      true, 0.1, NAN, "exact"},
     {"-F fp16 -m reversed -f 1000 --error 0.01 --range 1:100", "near", QUANTITY_ERROR, 0.01, 1, 100, false, NAN, 1000,
