@@ -18,6 +18,7 @@ static const char *const lines[] = {
     "table -n 0.1 -f 1000 -F unorm16,unorm24,fp32 -m d3d,reversed,log --unit cm --range 0.2:900 --model auto "
     "--tolerance 0.2 --at 0.1,0.5,3,20,100,900",
     "table -n 0.1 -f 1000 -F unorm24 -m d3d --range 0.2:900 --tolerance 1e-6 --at 0.5,1,2,5,10,900",
+    "table -n 0.1 -f 1000 -F unorm24,fp32 -m d3d --range 0.2:900 --tolerance 0.01 --at 0.5,1,2,5,10,1000",
 };
 
 static void want_worst(values *v, const dp_setup *setup, double lo, double hi) {
@@ -168,7 +169,8 @@ static void want_table(values *v, const char *line, dp_setup *setup, size_t i) {
     values_under(v, "%s", under);
     want_setup(v, setup);
     if (is_given(line, "--tolerance")) {
-        method = method_of(setup, tolerance, z[0] == setup->spec.znear, &claim, &name);
+        const bool cut = z[0] == setup->spec.znear || z[DEPTHS - 1] == setup->spec.zfar; /* cells that a plane cuts */
+        method = method_of(setup, tolerance, cut, &claim, &name);
         want(v, "method=%s claim=%f", name, claim);
     }
     for (int k = 0; k < DEPTHS; k++) {

@@ -132,6 +132,21 @@ TEST(each_number) {
     }
 }
 
+/* The last pair may end with the range: behind the last depth that is stored nearer than another all fight, be it one. */
+TEST(always_up_to_the_end) {
+    static const char line[] = "zfight -n 1 -f 16 -F unorm8 -m d3d --separation 0.0009765625 --range 8:%.17g";
+    json_t *root = json_printed(0, line, 15.875);
+    const double from = number_at(root, "setups[0].always_from"), end = from + 0x1p-10;
+    assert_true(from > 15 && from < 15.8);
+    json_decref(root);
+    root = json_printed(0, line, end);
+    assert_true(number_at(root, "setups[0].always_from") == from);
+    json_decref(root);
+    root = json_printed(0, line, end - 0x1p-20);
+    assert_true(isnan(number_at(root, "setups[0].always_from")));
+    json_decref(root);
+}
+
 /* The warning about geometry that is not drawn: how many holes, between which planes. */
 TEST(warnings) {
     static const char *const said[][2] = {
