@@ -97,10 +97,25 @@ static void want_row(values *v, const all_case *c, const dp_setup *setup, size_t
     want_call(v, c, api, units);
 }
 
+/* The goal above the calls: of a gap it begins where near leaves room for that. */
+static void check_goal(const all_case *c, double znear, const char *text) {
+    char gap[64] = "To be resolved", place[96] = "", slope[64] = "", goal[256];
+    if (c->gap > 0)
+        snprintf(gap, sizeof gap, "To bring a layer %g nearer", c->gap);
+    if (c->z[0] == 0)
+        snprintf(place, sizeof place, " from z = %.8g to %.8g", fmax(c->range[0], znear + c->gap), c->range[1]);
+    if (c->slope > 0)
+        snprintf(slope, sizeof slope, ", slope %g per pixel", c->slope);
+    snprintf(goal, sizeof goal, "\n%s%s%s:\n", gap, place, slope);
+    assert_non_null(strstr(text, goal));
+}
+
 /* The text has the call behind the name of each API, or where a bias is enough. */
 static void check_text(const values *v, const char *arguments, size_t setups, size_t places) {
+    const all_case c = case_of(arguments);
     printed p = print_of("%s --full", arguments);
     assert_int_equal(p.status, 0);
+    check_goal(&c, number_behind(arguments, "-n", 0), p.out);
     const char *line = p.out;
     for (size_t k = 0; k < setups; k++)
         for (size_t i = 0; i < places * APIS; i++) {

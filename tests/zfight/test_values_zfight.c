@@ -132,7 +132,8 @@ TEST(each_number) {
     }
 }
 
-/* The last pair may end with the range: behind the last depth that is stored nearer than another all fight, be it one. */
+/* The last pair may end with the range: behind the last depth that is stored nearer than another all fight, be it one.
+ */
 TEST(always_up_to_the_end) {
     static const char line[] = "zfight -n 1 -f 16 -F unorm8 -m d3d --separation 0.0009765625 --range 8:%.17g";
     json_t *root = json_printed(0, line, 15.875);
