@@ -337,19 +337,28 @@ static double mapped(const char *method, double z) {
 }
 
 /* The mean over the outline of a sphere as large at every depth, a wall behind it as far as it is large. */
-static double outlined(const char *method, double z) {
+static double outlined(const char *method, double z, bool ortho) {
     enum { SIDE = 48, RADIUS = 16 };
-    cameras c = cameras_of(drawn_camera(0.1, 1000), "unorm16", "d3d");
+    const double tangent = tan(30 * 3.14159265358979323846 / 180), half = ortho ? 5 : tangent;
+    dp_spec one = drawn_camera(0.1, 1000);
+    one.ortho = ortho;
+    cameras c = cameras_of(one, "unorm16", "d3d");
     camera_spec spec = camera_spec_default();
     texture_camera camera;
     normal_measured m;
     spec.width = spec.height = SIDE;
-    spec.fov_y = 2 * atan(tan(30 * 3.14159265358979323846 / 180) * SIDE / 1080) * 180 / 3.14159265358979323846;
+    spec.fov_y = 2 * atan(tangent * SIDE / 1080) * 180 / 3.14159265358979323846;
+    spec.half_height = half * SIDE / 1080;
     assert_null(camera_init(&camera, &c.setups[0], &spec));
-    const double radius = z * RADIUS * 2 * tan(30 * 3.14159265358979323846 / 180) / 1080;
+    const double radius = (ortho ? 1 : z) * RADIUS * 2 * half / 1080;
     const double sphere[] = {z, radius, z + 2 * radius, 0};
     assert_true(normal_measure(normal_find(method), &camera, synthetic_find("sphere"), sphere, 0, SIDE, &m));
     return m.edges.mean * 180 / 3.14159265358979323846;
+}
+
+/* The depths of a point, evenly in their logarithm. */
+static double normal_depth(int slice, int i) {
+    return 0.1 * pow(1e4, (slice * 4 + i) / 199.0);
 }
 
 TEST(normals_of_the_program) {
@@ -368,12 +377,31 @@ TEST(normals_of_the_program) {
         for (int slice = 8; slice < 50; slice += 20) { /* each point is the worst of four depths */
             double worst = 0, top, bottom;
             for (int i = 0; i < 4; i++)
-                worst = fmax(worst, (m < 4 ? mapped : outlined)(texts[m % 4], 0.1 * pow(1e4, (slice * 4 + i) / 199.0)));
+                worst = fmax(worst, m < 4 ? mapped(texts[m % 4], normal_depth(slice, i))
+                                          : outlined(texts[m % 4], normal_depth(slice, i), false));
             const double x = p->frame.x0 + (p->frame.x1 - p->frame.x0) * (slice + 0.5) / 50;
             assert_true(drawn_reach(drawn_curve(d, p, &d->entries[m % 4]), x - 0.5, x + 0.5, &top, &bottom));
             assert_px((top + bottom) / 2, drawn_px(&p->y, worst), 2);
         }
     }
+    drawn_close(d);
+}
+
+/* A sphere of an orthographic camera is as large in the image wherever it is. */
+TEST(normals_without_a_perspective) {
+    static const char *const texts[] = {"low", "medium", "high", "projective"};
+    drawn *d = drawn_run(&drawn_light, "plot normals -F unorm16 -m d3d --ortho");
+    const drawn_panel *p = &d->panels[1];
+    assert_true(p->x.log);
+    for (int m = 0; m < 4; m++)
+        for (int slice = 8; slice < 50; slice += 10) {
+            double worst = 0, top, bottom;
+            for (int i = 0; i < 4; i++)
+                worst = fmax(worst, outlined(texts[m], normal_depth(slice, i), true));
+            const double x = p->frame.x0 + (p->frame.x1 - p->frame.x0) * (slice + 0.5) / 50;
+            assert_true(drawn_reach(drawn_curve(d, p, &d->entries[m]), x - 0.5, x + 0.5, &top, &bottom));
+            assert_px((top + bottom) / 2, drawn_px(&p->y, worst), 2);
+        }
     drawn_close(d);
 }
 

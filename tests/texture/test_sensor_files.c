@@ -7,6 +7,7 @@
 
 #include "exr_made.h"
 #include "support.h"
+#include "texture/device.h"
 #include "truth.h"
 
 enum { HEADER = 12, FILE_MOST = 1 << 14 };
@@ -198,6 +199,26 @@ TEST(damaged_messages) {
         assert_false(image_parse(bytes, all, &img, &error));
         assert_non_null(strstr(error.text, "compressedDepth must have one channel of u2, got"));
     }
+}
+
+/* Steps that are known, from what is published of each, with how far a device was found to be off. */
+TEST(steps_that_are_known) {
+    static const struct {
+        const char *begins;
+        double step, within;
+    } rows[] = {{"Kinect 1", 0.125 / (575.815739 * 0.075), 0.004},   /* eighths of a pixel */
+                {"OAK-D", 1 / 29.896, 0.002},                        /* whole pixels, measured */
+                {"compressedDepth", 1 / (100.0 * (100 + 1)), 1e-4}}; /* depth_quantization (depth_quantization + 1) */
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        for (int way = -1; way <= 1; way++) {
+            const double inside = rows[i].step * (1 + 0.9 * way * rows[i].within),
+                         outside = rows[i].step * (1 + 1.1 * (way != 0 ? way : 9) * rows[i].within);
+            const char *name = device_like(GRAIN_INVERSE, inside);
+            if (name == NULL || strstr(name, rows[i].begins) != name)
+                fail_msg("%g is like %s, not %s", inside, name != NULL ? name : "none", rows[i].begins);
+            assert_null(device_like(GRAIN_INVERSE, outside));
+            assert_null(device_like(GRAIN_EVEN, inside));
+        }
 }
 
 /* The formula of its documentation, by the default far. */

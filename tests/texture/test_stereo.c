@@ -39,6 +39,7 @@ static const stereo_kind kinds[] = {
     {"below 0", "focal=1050,baseline=1,step=-1", IMAGE_F32, 1050, 0, -1, 0, 5, 900, 0},
     {"Middlebury", "middlebury", IMAGE_F32, 3979.911 * 0.193001, 124.343, 1, 0, 2, 5.8, INFINITY},
     {"binary16", "400,0.1", IMAGE_F16, 40, 0, 1, 0, 0.5, 30, 0},
+    {"binary16 of small numbers", "0.04,0.1", IMAGE_F16, 0.004, 0, 1, 0, 5, 900, 0},
 };
 enum { KINDS = sizeof kinds / sizeof kinds[0] };
 
@@ -49,6 +50,7 @@ static double depth_of(const stereo_kind *k, double sample) {
 static double half_of(double x) {
     int e;
     frexp(x, &e);
+    e = e > -13 ? e : -13; /* below 2^-14 in steps of 2^-24 */
     return ldexp(rint(ldexp(x, 11 - e)), e - 11);
 }
 
