@@ -196,6 +196,7 @@ async function waysOut() {
             await settled(page);
             const headline = () => page.locator("#verdicts p").first().textContent(), said = await headline();
             demand(!/: resolved/.test(said), `${engine} ${gap} ${distance}: nothing to mend: ${said}`);
+            demand((await page.inputValue("#more-A")) === "", `${engine}: what has a control is among the further options: ${await page.inputValue("#more-A")}`);
             if (i >= (await buttons.count())) break;
             const name = await buttons.nth(i).textContent(), code = await page.locator("#ways > span").nth(i).locator("code").allTextContents();
             if (i === 0 && beside !== null) demand(/^Raise near/.test(name) && String(code).startsWith(beside), `${engine}: ${name}: ${code}`);

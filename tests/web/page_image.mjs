@@ -108,6 +108,41 @@ async function pixelAgrees(page, path, words, [x, y]) {
     demand(all !== undefined && all[0] === code && [z, lo, hi].every((one, i) => Math.abs(all[i + 1] - one) <= Math.max((hi - lo) / 5, 1e-12 * one)), `${path}: ${says}, not ${[code, z, lo, hi]}`);
 }
 
+// Holes and sky are counted as the program does, and the depths of the others are its.
+function counts(says, { invalid, sky, lo, hi }) {
+    const number = (pattern) => Number(pattern.exec(says)?.[1] ?? 0), [a, b] = [/Depths from (\S+)/, / to (\S+?)(?: m)?\.$/].map(number);
+    const same = (one, other) => Math.abs(one - other) <= 6e-4 * other;
+    demand(number(/(\d+) pixels are holes/) === invalid && number(/(\d+) pixels are sky/) === sky.pixels && same(a, lo) && same(b, hi), `${says}: ${[invalid, sky.pixels, lo, hi]}`);
+}
+
+// Grey by the logarithm of what is drawn, holes clear; of an image that is not made smaller, once it is painted.
+async function painted(page, valueOf) {
+    const values = field(valueOf), finite = values.filter((one) => !Number.isNaN(one)), [lo, hi] = [Math.min(...finite), Math.max(...finite)];
+    const fault = (pixels) => values.flatMap((value, i) => {
+        const own = pixels.slice(4 * i, 4 * i + 4), grey = Math.floor((255 * Math.log(value / lo)) / Math.log(hi / lo));
+        const fine = Number.isNaN(value) ? own[3] === 0 : own[3] === 255 && own[0] === own[1] && own[1] === own[2] && Math.abs(own[0] - grey) <= 1;
+        return fine ? [] : [`pixel ${i % WIDTH},${Math.floor(i / WIDTH)} is ${own}, of ${value} from ${lo} to ${hi}`];
+    })[0];
+    for (let tries = 100, wrong; (wrong = fault(await page.evaluate(([width, height]) => {
+        const copy = new OffscreenCanvas(width, height).getContext("2d", { willReadFrequently: true });
+        copy.drawImage(document.querySelector("#image canvas"), 0, 0);
+        return [...copy.getImageData(0, 0, width, height).data];
+    }, [WIDTH, HEIGHT]))) !== undefined; await page.waitForTimeout(100)) demand(tries-- > 0, wrong);
+}
+
+// At a corner the keys go no further.
+async function corners(page) {
+    for (const [x, y, out, back] of [[0, 0, ["ArrowLeft", "ArrowUp"], ["ArrowRight", "ArrowDown"]], [WIDTH - 1, HEIGHT - 1, ["ArrowRight", "ArrowDown"], ["ArrowLeft", "ArrowUp"]]]) {
+        await at(page, x, y);
+        for (const key of [...out, ...back]) await page.keyboard.press(key);
+        const name = `Pixel ${Math.abs(x - 1)},${Math.abs(y - 1)}`;
+        await page.waitForFunction((text) => document.querySelector("#pixel").innerText.startsWith(text), name, { timeout: 10000 }).catch(async () => demand(false, `${name}: ${(await shown(page)).pixel}`));
+        for (const key of out) await page.keyboard.press(key);
+        for (let i = x; i !== WIDTH >> 1; i += Math.sign((WIDTH >> 1) - i)) await page.keyboard.press(x > 0 ? "ArrowLeft" : "ArrowRight");
+        for (let i = y; i !== HEIGHT >> 1; i += Math.sign((HEIGHT >> 1) - i)) await page.keyboard.press(y > 0 ? "ArrowUp" : "ArrowDown");
+    }
+}
+
 // A pixel's eye depth and cell are the program's, and so is how the image was recognised; set-up A changes by its button alone.
 async function agrees(page, path, format, mapping, pixel) {
     const line = ["-n", "0.3", "-f", "100", "-m", mapping], before = (await shown(page)).set, now = await choose(page, path);
@@ -116,6 +151,7 @@ async function agrees(page, path, format, mapping, pixel) {
     demand(String(now.set) === String(before), `${path}: set-up A became ${now.set}`);
     if (now.asks > 0) await page.selectOption("#holds", "window");
     await page.waitForFunction((text) => document.querySelector("#recognised").textContent.includes(text), `: Window depth: ${why}. `);
+    counts((await shown(page)).says, JSON.parse(plain.out));
     await pixelAgrees(page, path, line, pixel);
     if ((await shown(page)).use) await page.click("#use-image");
     await settled(page);
@@ -172,7 +208,13 @@ async function read() {
         ["bits.npy", npy("<u4", new Uint32Array(singles.buffer)), "fp32", "reversed"],
         ["channels.npy", npy("<u2", Uint16Array.from(words(65535).flatMap((code) => [code, 9])), `${HEIGHT}, ${WIDTH}, 2`), "unorm16", "d3d"],
     ];
+    const skies = (far) => npy("<f4", Float32Array.from(field((x, y) => (x === 5 ? far : x + y === 20 ? NaN : Math.round(65535 * depthAt(x, y, far === 0)) / 65535))));
+    files.push(["sky.npy", skies(1), "unorm16", "d3d"], ["dark.npy", skies(0), "unorm16", "reversed"]);
     for (const [i, [name, bytes, format, mapping]] of files.entries()) await agrees(page, put(name, bytes), format, mapping, [(7 * i) % WIDTH, (5 * i) % HEIGHT]);
+    for (const [name, code] of [["sky.npy", 65535], ["dark.npy", 0]]) {
+        await choose(page, join(folder, name));
+        demand((await at(page, 5, 4)).pixel.startsWith(`Pixel 5,4 is sky, or was cleared: code ${code}, from `), (await shown(page)).pixel);
+    }
     await close(page);
     return `${files.length} files`;
 }
@@ -192,10 +234,15 @@ async function others() {
     await choose(page, metres);
     await page.selectOption("#holds", "--metric 1m");
     await page.waitForFunction(() => document.querySelector("#recognised").textContent.includes("1 in a sample is 1 m"));
+    await painted(page, (x, y) => 1 + x + y / 8);
     await pixelAgrees(page, metres, ["--metric", "1m", "--unit", "m"], [5, 8]);
     const holes = await choose(page, put("holes.npy", npy("<f4", Float32Array.from(field((x, y) => (x + y === 20 ? NaN : depthAt(x, y)))))));
     await axeFindsNothing(page);
     demand(holes.seen && (await at(page, 12, 8)).pixel === "Pixel 12,8 is a hole.", (await shown(page)).pixel);
+    await painted(page, (x, y) => (x + y === 20 ? NaN : 100 / (1000 - 999.9 * depthAt(x, y))));
+    await page.selectOption("#holds", "window"); // the pixel is the middle one again
+    await settled(page);
+    await corners(page);
     const half = put("f2.npy", npy("<f2", Uint16Array.from(field((x, y) => ((y % 14) << 10) | x))));
     demand((await choose(page, half)).says.includes("numbers of fp16"), (await shown(page)).says);
     await pixelAgrees(page, half, camera.map((word) => (word === "d3d" ? "reversed" : word)), [30, 9]); // which their mass shows
