@@ -141,6 +141,31 @@ TEST(test_refused) {
     }
 }
 
+/* How wide a picture may be, and how far off its axis: on either axis, just within and just beyond. */
+TEST(test_edges) {
+    static const struct {
+        int ortho, good;
+        double half, centre; /* the centre in halves */
+    } rows[] = {{0, 1, 999.9, 0},  {0, 0, 1000.1, 0}, {0, 1, 1.1e-9, 0},  {0, 0, 0.9e-9, 0},  {0, 1, 1, 998.9},
+                {0, 0, 1, 999.1},  {0, 1, 1, -998.9}, {0, 0, 1, -999.1},  {0, 1, 250, 2.99},  {0, 0, 250, 3.01},
+                {1, 1, 0.9e12, 0}, {1, 0, 1.1e12, 0}, {1, 1, 1.1e-12, 0}, {1, 0, 0.9e-12, 0}, {1, 1, 1e11, 8.9},
+                {1, 0, 1e11, 9.1}, {1, 0, 1e11, -9.1}};
+    for (size_t i = 0; i < 2 * sizeof rows / sizeof rows[0]; i++) {
+        const int axis = (int)(i % 2), ortho = rows[i / 2].ortho;
+        double m[ENTRIES] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1.25, -0.25, 0, 0, 1, 0};
+        dp_matrix_fault fault = {NULL, {0}};
+        dp_projection p;
+        m[14] = !ortho;
+        m[15] = ortho;
+        m[5 * axis] = 1 / rows[i / 2].half;
+        m[4 * axis + (ortho ? 3 : 2)] = rows[i / 2].centre;
+        const dp_status got = dp_projection_init(&p, m, 0, 0, &fault);
+        if (got != (rows[i / 2].good ? DP_OK : DP_ERROR_MATRIX))
+            fail_msg("half %g, centre %g: %s", rows[i / 2].half, rows[i / 2].centre, fault.rule);
+        assert_true(rows[i / 2].good || strstr(fault.rule, "edges") != NULL);
+    }
+}
+
 /* ---- What rounding left of the planes ---- */
 
 /* The planes of a third row c, e by hand: NDC depth is c + e/z, or c z + e, and ends at 0 or -1 and at 1. */

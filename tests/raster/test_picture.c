@@ -380,6 +380,17 @@ TEST(refused) {
     }
 }
 
+/* The farthest thing may lie on the far plane. */
+TEST(up_to_far) {
+    for (dp_mapping m = DP_MAPPING_D3D; m <= DP_MAPPING_GL_REVERSED; m++) {
+        const dp_spec spec = spec_of("fp32", m, 0.1, 1000.0);
+        draw_picture p;
+        assert_null(draw_picture_open(&p, &spec, NULL, 1000.0));
+        assert_true(draw_picture_frame(&p, 0.0, 0, false, NULL).covered > 20000);
+        draw_picture_close(&p);
+    }
+}
+
 /* ---- Every mapping and format -------------------------------------------------------------------------------------
  */
 
