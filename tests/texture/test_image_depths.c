@@ -205,3 +205,17 @@ TEST(codes_return) {
     }
     tally_end(&t);
 }
+
+/* Each number of binary16, the second channel being another; infinities are none. */
+TEST(each_half) {
+    static uint16_t both[2 * 65536];
+    const image img = {.data = both, .type = IMAGE_F16, .width = 65536, .height = 1, .channels = 2};
+    for (size_t i = 0; i < 65536; i++) {
+        both[2 * i] = (uint16_t)i;
+        both[2 * i + 1] = (uint16_t)~i;
+    }
+    for (size_t i = 0; i < 65536; i++) {
+        const double want = half_value((uint16_t)i), got = image_sample(&img, i);
+        assert_true(isfinite(want) ? got == want : isnan(got));
+    }
+}
