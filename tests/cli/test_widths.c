@@ -194,3 +194,39 @@ TEST(broken_commands) {
     assert_true(strchr(p.errors, '\n') == p.errors + strlen(p.errors) - 1);
     printed_free(&p);
 }
+
+/* ---- Set-ups one after another ----------------------------------------------------------------------------------- */
+
+/* Whatever was said of the set-up before, or of the distance: the text of several is that of each alone. */
+TEST(each_as_if_alone) {
+    static const char *const commands[] = {
+        "bias -n 1 -f 10 --units=-5000 --api gl --at 1,5 -F unorm16",
+        "bias -n 1 -f 10 --units=3 --api d3d11 --range 2:9 --separation 0.01 -F fp32",
+        "bias -n 1 -f 10 --api gl --separation 0.5 -F unorm24",
+        "budget -n 1 -f 100 --viewport 640x480 -F fp16",
+        "budget -n 1 -f 100 --from-origin 1e6 --linearize -F unorm24",
+        "prepass -n 1 -f 9 --sample 1000 -F unorm16",
+        "prepass -n 1 -f 9 --prepass-format unorm16,fp16 -F fp32",
+        "shadow --light-box 40x40x100 --api gl -F fp32",
+        "world --at 5 -f 100 --from-origin 1e9,1 -F unorm16",
+        "zfight -n 1 -f 4 --separation 0.01 -F unorm8",
+        "zfight -n 1 -f 4 -F fp16"};
+    static const char *const both[] = {"d3d", "reversed", "d3d"};
+    for (size_t i = 0; i < 2 * sizeof commands / sizeof commands[0]; i++) {
+        const char *const *m = both + i % 2, *command = commands[i / 2];
+        printed one = print_of("%s -m %s", command, m[0]), next = print_of("%s -m %s", command, m[1]);
+        printed together = print_of("%s -m %s,%s", command, m[0], m[1]);
+        char *apart;
+        assert_true(asprintf(&apart, "%s\n%s", one.out, next.out) > 0);
+        assert_string_equal(together.out, apart);
+        printed_free(&one);
+        printed_free(&next);
+        printed_free(&together);
+        free(apart);
+    }
+    static const char world[] = "world --at 5 -f 100 --from-origin %s";
+    printed two = print_of(world, "1e9,1"), alone = print_of(world, "1");
+    assert_string_equal(strstr(two.out, "\n1 from the origin"), strstr(alone.out, "\n1 from the origin"));
+    printed_free(&two);
+    printed_free(&alone);
+}
