@@ -246,6 +246,13 @@ TEST(told_is_enough) {
     }
 }
 
+/* One is a unit, either way, and two are units. */
+TEST(one_unit) {
+    check_says_all(0, "bias -n 1 -f 10 --api metal -F fp32 -m reversed --range 2:3", SAID(" 1 unit from", "!1 units"));
+    check_says_all(0, "bias -n 1 -f 10 --api metal -F fp32 -m d3d --range 2:3", SAID("-1 unit from", "!1 units"));
+    check_says_all(0, "bias -n 1 -f 10 --api d3d11 -F d24 -m d3d --range 2:3", SAID("-2 units from"));
+}
+
 /* A limit of biases is said where it applies, and nowhere else. */
 TEST(limits_where_they_apply) {
     check_says_all(0, "bias --api d3d11 -F fp32 -m reversed --units 2 --range 1:100",

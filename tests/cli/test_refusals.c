@@ -122,6 +122,7 @@ static const refusal refusals[] = {
     {"prepass --against fma --range 1:2000", "range", 2},
     {"prepass --against fma -m log", "mapping", 2},
     {"prepass --against fma --ortho -n -5 -f 5", "vertices", 2},
+    {"prepass --against fma --ortho -n 0 -f 5", "vertices", 2},
     {"prepass --prepass-format d25", "prepass-format", 2},
     {"prepass --prepass-format unorm25", "prepass-format", 2},
     {"prepass --prepass-format d16,rg", "prepass-format", 2},
