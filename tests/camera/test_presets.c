@@ -157,6 +157,34 @@ TEST(test_said) {
     assert_int_equal(preset_length("unity"), 5);
 }
 
+/* The example of a refusal is enough: of all numbers, or of those but the first, which is sought. */
+TEST(test_examples) {
+    size_t refusals[2] = {0};
+    for (size_t i = 0; preset_get(i) != NULL; i++)
+        for (int sought = 0; sought < 2 && preset_get(i)->function != NULL; sought++) {
+            const preset *row;
+            preset_values given;
+            preset_camera made;
+            char error[PRESET_ERROR_SIZE], example[PRESET_ERROR_SIZE] = "";
+            assert_true(preset_read(preset_get(i)->name, &row, &given, error));
+            given.sought = sought != 0;
+            if (preset_make(row, &given, &made, error))
+                continue;
+            const char *said = strstr(error, ": ");
+            assert_non_null(said);
+            snprintf(example, sizeof example, "%.*s", (int)preset_length(said + 2), said + 2);
+            char *more = strstr(example, ", or");
+            *(more != NULL ? more : example + strlen(example)) = '\0';
+            assert_true(preset_read(example, &row, &given, error) && row == preset_get(i));
+            assert_int_equal(isnan(given.given[0]) != 0, sought || !isnan(row->function->parameters[0].standard));
+            given.sought = sought != 0;
+            if (!preset_make(row, &given, &made, error))
+                fail_msg("%s: %s", example, error);
+            refusals[sought]++;
+        }
+    assert_true(refusals[0] > 10 && refusals[1] > 3);
+}
+
 TEST(test_required) {
     static const char *const names[] = {
         "unity",        "unity-gl", "unreal",    "godot-forward", "godot-mobile",        "three",

@@ -150,13 +150,15 @@ static void check_curves(const drawn *d, const cameras *c, size_t mappings, cons
     }
 }
 
-/* Curves that lie on each other still show: no marker hides that of another. */
+/* Curves that lie on each other still show: no marker hides that of another, and none lies on the frame. */
 static void staggered(const drawn *d, const drawn_panel *p) {
     drawn_marker all[256];
     const size_t count = drawn_markers(d, p, all, 256);
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count; i++) {
+        assert_true(all[i].shape == DRAWN_ARROW || all[i].x > p->frame.x0 + 5);
         for (size_t k = 0; k < i; k++)
             assert_true(fabs(all[i].x - all[k].x) > 5 || all[i].shape == DRAWN_ARROW || all[k].shape == DRAWN_ARROW);
+    }
 }
 
 static size_t one_panel(const curves_case *q, const drawn_theme *look, double znear, double zfar, const char *formats,
