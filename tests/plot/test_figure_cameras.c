@@ -134,6 +134,10 @@ TEST(staircases_need_no_options) {
     assert_string_equal(text_at(one, "data"), text_at(other, "data"));
     json_decref(one);
     json_decref(other);
+    one = json_printed(0, "plot staircase -F unorm2,unorm3,unorm4,unorm5 -m d3d,reversed --json");
+    assert_int_equal(json_array_size(node_at(one, "panels")), 8);
+    json_decref(one);
+    check_says(2, "must make at most 8 set-ups", "plot staircase -F unorm2,unorm3,unorm4 -m d3d,gl,reversed --json");
 }
 
 /* The share of what has no end would be 0 everywhere. */
