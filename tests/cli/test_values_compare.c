@@ -36,6 +36,7 @@ static const camera cameras[] = {
     {"--ortho -n -0.3 -f 0.1 -F d24,fp32 -m d3d", -0.3, 0.1, 1, 4, {-0.2, -0.1, 0, 0.1}, 2, NULL},
     {"-n 0.05 -f 2e7 -F d24,fp32 -m reversed", 0.05, 2e7, 0, 5, {0.1, 10, 1000, 1e5, 1e7}, 2, NULL},
     {"-n 3 -f 5 -F d24,fp32 -m reversed", 3, 5, 0, 1, {5}, 2, NULL},
+    {"-F d16,d24 -m d3d --at 400,900,999", 0.1, 1000, 0, 3, {400, 900, 999}, 2, NULL}, /* two of them too near to far */
     {"--viewport 1920x1080", 0.1, 1000, 0, 5, {0.1, 1, 10, 100, 1000}, 8, &hd},
     {"-m d3d,log -F d24 --viewport 1920x1080", 0.1, 1000, 0, 5, {0.1, 1, 10, 100, 1000}, 1, &hd},
     {"-n 0.2 -f 7e4 -F d24,fp32 -m reversed,d3d --viewport 640x480 --fov 40 --raster llvmpipe --slant 10:80 "
@@ -286,6 +287,18 @@ TEST(test_three) {
         if (strcmp(heading.word[0], "unorm24") != 0 || strncmp(heading.word[1], said[i][1], length) != 0 ||
             strcspn(heading.word[1], ",") != length)
             fail_msg("%s: %s", said[i][0], p.out);
+        printed_free(&p);
+    }
+}
+
+/* What clipping removes is told once, of however many depth ranges, which come behind it. */
+TEST(clipping_is_told_once) {
+    static const char *const ranges[] = {"", "--depth-range 0:0.5", "--depth-range 0:1,0:0.5,0.5:1"};
+    for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++) {
+        printed p = print_of("table --model float -F fp32 -m gl -n 0.1 -f 1e6 --at 1 %s", ranges[i]);
+        const char *told = strstr(p.errors, "fp32 gl: clipping in binary32 keeps only");
+        if (p.status != 0 || told == NULL || strstr(strchr(told, ':') + 3, "clipping") != NULL)
+            fail_msg("%s: %s", ranges[i], p.errors);
         printed_free(&p);
     }
 }

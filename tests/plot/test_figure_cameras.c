@@ -170,6 +170,15 @@ TEST(linear01_shows_a_short_range) {
     }
 }
 
+/* Of several far planes the farthest ends what may be shown, in whatever order they stand. */
+TEST(linear01_of_several_far_planes) {
+    static const char *const orders[] = {"10,20", "20,10", "20,10,15"};
+    for (size_t i = 0; i < sizeof orders / sizeof orders[0]; i++) {
+        json_decref(json_printed(0, "plot linear01 -f %s --range 1:15 --json", orders[i]));
+        check_says(2, "= [1, 20], got 21", "plot linear01 -f %s --range 1:21 --json", orders[i]);
+    }
+}
+
 TEST(linear01_has_a_finite_far_plane) {
     static const refused_row rows[] = {{"-f inf -o /dev/null --type svg", "must be finite in the figure linear01", 2},
                                        {"-f 100,inf --json", "must be finite in the figure linear01", 2},
