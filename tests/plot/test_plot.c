@@ -288,11 +288,9 @@ TEST(test_every_figure_draws) {
 }
 
 /* Where the format may be either of two, each has its panel, drawn in the fullest model that the camera asks for. */
-TEST(test_needs_of_two_formats) {
-    static const char text[] = "cameras = { a = { near = 1.0; far = 100.0; mapping = \"d3d\"; format = "
-                               "\"depth24plus\"; model = \"auto\"; }; };"
-                               "requirements = { x = { camera = \"a\"; range = [1.0, 50.0]; separation = 0.01; }; };";
+static void check_two_formats(const char *word) {
     static const char *const either[] = {"unorm24", "fp32"};
+    char text[256];
     need_file file;
     need_error error;
     asked a;
@@ -301,7 +299,11 @@ TEST(test_needs_of_two_formats) {
     ask_add(&a, either[0], DP_MAPPING_D3D);
     ask_add(&a, either[1], DP_MAPPING_D3D);
     a.request.file = &file;
-    assert_true(need_parse("needs", text, sizeof text - 1, &file, &error));
+    snprintf(text, sizeof text,
+             "cameras = { a = { near = 1.0; far = 100.0; mapping = \"d3d\"; format = \"depth24plus\"; model = \"%s\"; "
+             "}; }; requirements = { x = { camera = \"a\"; range = [1.0, 50.0]; separation = 0.01; }; };",
+             word);
+    assert_true(need_parse("needs", text, strlen(text), &file, &error));
     chart *c = build(&a, "needs");
     assert_int_equal(c->panel_count, 2);
     for (size_t i = 0; i < 2; i++) {
@@ -316,6 +318,11 @@ TEST(test_needs_of_two_formats) {
     }
     chart_free(c);
     need_release(&file);
+}
+
+TEST(test_needs_of_two_formats) {
+    check_two_formats("auto");
+    check_two_formats("float");
 }
 
 TEST(test_digest) {

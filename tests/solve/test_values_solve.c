@@ -683,6 +683,30 @@ TEST(what_is_solved_for) {
                options[0], options[1], options[2], options[3]);
 }
 
+/* The column of what is solved for is called so, in whatever command line; of a separation it is none. */
+TEST(heads) {
+    static const struct {
+        const char *line, *head;
+    } rows[] = {{"--for near -f 1000 --separation 0.1 --at 50", "  least near  "},
+                {"--for far -n 0.1 --separation 0.1 --at 50", "  largest far  "},
+                {"--for format -n 0.1 -f 1000 --separation 0.1 --at 50", "  near  "},
+                {"--for mapping -n 0.1 -f 1000 --separation 0.1 --at 50", "  near  "},
+                {"--for distance -n 0.1 -f 1000 --separation 0.1", "  distance  "},
+                {"--for separation -F all -n 0.1 -f 1000 --at 50", "  separation  "}};
+    enum { ROWS = sizeof rows / sizeof rows[0] };
+    for (size_t i = 0; i < ROWS; i++) {
+        printed p = print_of("solve %s", rows[i].line);
+        const char *heads = strstr(p.out, "\n  format ");
+        assert_true(p.status <= 1 && heads != NULL);
+        char line[128];
+        snprintf(line, sizeof line, "%.*s", (int)strcspn(heads + 1, "\n"), heads + 1);
+        for (size_t k = 0; k + 1 < ROWS; k++) /* each has a separation */
+            if ((strstr(line, rows[k].head) != NULL) != (strcmp(rows[k].head, rows[i].head) == 0))
+                fail_msg("solve %s: '%s' in '%s'", rows[i].line, rows[k].head, line);
+        printed_free(&p);
+    }
+}
+
 /* Why the guarantee is not in binary32, said of what it is: an error has cells, a mapping may have no pipeline. */
 TEST(why_another_model) {
     static const char *const rows[][3] = {
