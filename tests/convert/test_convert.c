@@ -354,94 +354,91 @@ static void want_way(values *v, const convert_chain *c, bool whole) {
              f.by > 0 ? f.most.code[0] : (double)NAN, f.changed == 0, f.merged, f.swapped);
 }
 
-TEST(each_number) {
-    static const struct {
-        const char *line, *names[3], *write;
-        double factor;
-        bool saturate;
-        size_t codes;
-        uint32_t code[3];
-    } rows[] = {
-        {"convert d16 fp16 d16 --code 0,1,65535",
-         {"unorm16", "fp16", "unorm16"},
-         "nearest",
-         0,
-         false,
-         3,
-         {0, 1, 65535}},
-        {"convert fp32 d16 --write cut:65536 --code 1065353216,1000",
-         {"fp32", "unorm16"},
-         "cut",
-         65536,
-         false,
-         2,
-         {1065353216, 1000}},
-        {"convert d24 d16 d24 --write cut:16777216 --code 16777215,77",
-         {"unorm24", "unorm16", "unorm24"},
-         "cut",
-         16777216,
-         false,
-         2,
-         {16777215, 77}},
-        {"convert unorm10 fp32 unorm10 --write cut:1500", {"unorm10", "fp32", "unorm10"}, "cut", 1500, false, 0, {0}},
-        {"convert unorm12 fp16 unorm12 --write half --saturate",
-         {"unorm12", "fp16", "unorm12"},
-         "half",
-         0,
-         true,
-         0,
-         {0}},
-        {"convert unorm12 unorm8 unorm12", {"unorm12", "unorm8", "unorm12"}, "nearest", 0, false, 0, {0}},
-        {"convert float4.6 unorm8", {"float4.6", "unorm8"}, "nearest", 0, false, 0, {0}},
-    };
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        const convert_chain c = chain_of(rows[i].names, rows[i].write, rows[i].factor, rows[i].saturate, false);
-        const dp_format *from = &c.format[0], *to = &c.format[c.count - 1];
-        values v = values_of(rows[i].line);
-        line_places one = {NULL, 0};
-        want(&v, "from=%s through=%s to=%s read=%s", from->name, c.count > 2 ? c.format[1].name : NULL, to->name,
-             "exact");
-        for (size_t k = 0; k < rows[i].codes; k++) {
-            const convert_path p = convert_code(&c, rows[i].code[k]);
-            values_under(&v, "codes[%zu].", k);
-            want(&v, "code=%u number=%f through=%f", p.code[0], p.number, c.count > 2 ? p.code[1] : (double)NAN);
-            want(&v, "becomes=%u beyond=%f changed=%d", p.code[c.count - 1],
-                 isnan(p.beyond[1]) ? p.beyond[2] : p.beyond[1], p.changed);
-        }
-        values_under(&v, "%s", "");
-        if (rows[i].codes > 0) {
-            char name[32];
-            snprintf(name, sizeof name, rows[i].factor > 0 ? "%s:%.0f" : "%s", rows[i].write, rows[i].factor);
-            want_text(&v, "write", name);
-            check_forms(&v, 0, rows[i].line, "codes[]",
-                        "from = /from, through = /through, to = /to, read = /read, write = /write, code, number, "
-                        "through, becomes, beyond, changed");
-            values_free(&v);
+typedef struct row {
+    const char *line, *names[3], *write;
+    double factor;
+    bool saturate;
+    size_t codes;
+    uint32_t code[3];
+} row;
+
+static const row rows[] = {
+    {"convert d16 fp16 d16 --code 0,1,65535", {"unorm16", "fp16", "unorm16"}, "nearest", 0, false, 3, {0, 1, 65535}},
+    {"convert fp32 d16 --write cut:65536 --code 1065353216,1000",
+     {"fp32", "unorm16"},
+     "cut",
+     65536,
+     false,
+     2,
+     {1065353216, 1000}},
+    {"convert d24 d16 d24 --write cut:16777216 --code 16777215,77",
+     {"unorm24", "unorm16", "unorm24"},
+     "cut",
+     16777216,
+     false,
+     2,
+     {16777215, 77}},
+    {"convert unorm10 fp32 unorm10 --write cut:1500", {"unorm10", "fp32", "unorm10"}, "cut", 1500, false, 0, {0}},
+    {"convert unorm12 fp16 unorm12 --write half --saturate", {"unorm12", "fp16", "unorm12"}, "half", 0, true, 0, {0}},
+    {"convert unorm12 unorm8 unorm12", {"unorm12", "unorm8", "unorm12"}, "nearest", 0, false, 0, {0}},
+    {"convert float4.6 unorm8", {"float4.6", "unorm8"}, "nearest", 0, false, 0, {0}},
+};
+
+static void want_codes(values *v, const row *r, const convert_chain *c) {
+    char name[32];
+    snprintf(name, sizeof name, r->factor > 0 ? "%s:%.0f" : "%s", r->write, r->factor);
+    want_text(v, "write", name);
+    for (size_t k = 0; k < r->codes; k++) {
+        const convert_path p = convert_code(c, r->code[k]);
+        values_under(v, "codes[%zu].", k);
+        want(v, "code=%u number=%f through=%f", p.code[0], p.number, c->count > 2 ? p.code[1] : (double)NAN);
+        want(v, "becomes=%u beyond=%f changed=%d", p.code[c->count - 1], isnan(p.beyond[1]) ? p.beyond[2] : p.beyond[1],
+             p.changed);
+    }
+}
+
+/* Beside what was asked for each way, by the largest code and by the number of codes. */
+static void want_ways(values *v, const convert_chain *c) {
+    const dp_format *from = &c->format[0], *to = &c->format[c->count - 1];
+    const bool moved = from->kind == DP_FORMAT_UNORM && c->format[1].kind == DP_FORMAT_UNORM;
+    size_t n = 0;
+    want_way(v, c, true);
+    for (size_t k = 0; from->code_max == to->code_max && convert_write_get(k) != NULL; k++) {
+        convert_chain other = *c;
+        other.write = (convert_rule){convert_write_get(k), 0};
+        if (other.write.way->moves && !moved)
             continue;
+        values_under(v, "ways[%zu].", n++);
+        want_way(v, &other, false);
+        if (!other.write.way->scales || moved)
+            continue;
+        other.write.factor = (double)to->code_max + 1;
+        values_under(v, "ways[%zu].", n++);
+        want_way(v, &other, false);
+    }
+}
+
+TEST(each_number) {
+    static const char heads[] = "from = /from, through = /through, to = /to, read = /read, write = /write";
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const row *r = &rows[i];
+        const convert_chain c = chain_of(r->names, r->write, r->factor, r->saturate, false);
+        char columns[256];
+        values v = values_of(r->line);
+        line_places one = {NULL, 0};
+        want(&v, "from=%s through=%s to=%s read=%s", c.format[0].name, c.count > 2 ? c.format[1].name : NULL,
+             c.format[c.count - 1].name, "exact");
+        (r->codes > 0 ? want_codes(&v, r, &c) : want_ways(&v, &c));
+        snprintf(columns, sizeof columns, "%s, %s", heads,
+                 r->codes > 0 ? "code, number, through, becomes, beyond, changed"
+                              : "codes, changed, first, becomes, most, most_at, equal, merged, swapped, beyond");
+        if (r->codes > 0) {
+            check_forms(&v, 0, r->line, "codes[]", columns);
+        } else {
+            check_json(&v, 0, r->line);
+            place_add(&one, "", "%s", "");
+            check_csv(&v, 0, r->line, columns, &one);
         }
-        want_way(&v, &c, true);
-        const bool moved = from->kind == DP_FORMAT_UNORM && c.format[1].kind == DP_FORMAT_UNORM;
-        size_t n = 0;
-        for (size_t k = 0; from->code_max == to->code_max && convert_write_get(k) != NULL; k++) {
-            convert_chain other = c;
-            other.write = (convert_rule){convert_write_get(k), 0};
-            if (other.write.way->moves && !moved)
-                continue;
-            values_under(&v, "ways[%zu].", n++);
-            want_way(&v, &other, false);
-            if (!other.write.way->scales || moved)
-                continue;
-            other.write.factor = (double)to->code_max + 1;
-            values_under(&v, "ways[%zu].", n++);
-            want_way(&v, &other, false);
-        }
-        check_json(&v, 0, rows[i].line);
-        place_add(&one, "", "%s", "");
-        check_csv(
-            &v, 0, rows[i].line,
-            "from, through, to, read, write, codes, changed, first, becomes, most, most_at, equal, merged, swapped, "
-            "beyond",
-            &one);
         places_free(&one);
         values_free(&v);
     }

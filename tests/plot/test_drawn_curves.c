@@ -155,7 +155,7 @@ static void staggered(const drawn *d, const drawn_panel *p) {
     drawn_marker all[256];
     const size_t count = drawn_markers(d, p, all, 256);
     for (size_t i = 0; i < count; i++) {
-        assert_true(all[i].shape == DRAWN_ARROW || all[i].x > p->frame.x0 + 5);
+        assert_true(all[i].shape == DRAWN_ARROW || all[i].x > p->frame.x0 + 1);
         for (size_t k = 0; k < i; k++)
             assert_true(fabs(all[i].x - all[k].x) > 5 || all[i].shape == DRAWN_ARROW || all[k].shape == DRAWN_ARROW);
     }
