@@ -367,6 +367,9 @@ TEST(refusals) {
 /* The words of shaders lead there. */
 TEST(words_lead_there) {
     static const char *const words[] = {"_ZBufferParams", "_ProjectionParams", "lineareyedepth"};
+    static const char *const used[] = {"_ZBufferParams.z", "_ZBufferParams[2]", "LinearEyeDepth(d)"};
+    for (size_t i = 0; i < sizeof used / sizeof used[0]; i++)
+        check_says(0, "depthprec table --constants", "help '%s'", used[i]);
     for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
         check_says(0, "depthprec table --constants", "help %s", words[i]);
         check_says(0, "depthprec table --constants", "list %s", words[i]);

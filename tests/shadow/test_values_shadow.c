@@ -580,6 +580,17 @@ TEST(each_number) {
     }
 }
 
+/* Where nobody says where the camera's depth ends, it ends where the view does. */
+TEST(camera_depth_of_the_view) {
+    json_t *all[2];
+    for (int i = 0; i < 2; i++)
+        all[i] = json_printed(0, "shadow -f 300 --cascades 2 --camera-depth d16:reversed%s", i == 0 ? "" : ":300");
+    assert_true(json_equal(node_at(all[0], "setups"), node_at(all[1], "setups")));
+    json_decref(all[0]);
+    json_decref(all[1]);
+    check_says(2, "FAR must be at least --far", "shadow -f 300 --camera-depth d16:reversed:299");
+}
+
 LIST_TEST(check_apart)
 
 /*
