@@ -137,6 +137,10 @@ test("cameras of matrices", () => {
     for (const key of ["near", "far", "ortho", "metric"])
         refuses(() => Camera.fromMatrix(all[0][1], { mapping: "d3d", [key]: 3 }), new RegExp(`options of fromMatrix must have no '${key}'`), TypeError);
     refuses(() => Camera.fromMatrix(new Array(16).fill(0)), /fourth row must be .*, got 0 0 0 0$/);
+    // As %.9g of C, at both ends of what it writes without an exponent.
+    for (const [numbers, said] of [[[1e9, 999999999, 999999999.4, 999999999.6], "1e+09 999999999 999999999 1e+09"], [[1e-4, 9.9999e-5, -1e-5, 0.000123456789012], "0.0001 9.9999e-05 -1e-05 0.000123456789"],
+        [[-1234567890.5, 1e100, 0.5, 100], "-1.23456789e+09 1e+100 0.5 100"], [[99999999.95, 0.1, 1 / 3, -2e-100], "100000000 0.1 0.333333333 -2e-100"]])
+        refuses(() => Camera.fromMatrix([...new Array(12).fill(1), ...numbers]), new RegExp(`, got ${said.replaceAll(/[.+]/g, "\\$&")}$`));
     refuses(() => Camera.fromMatrix(new Array(16).fill(NaN)), /finite/);
     refuses(() => Camera.fromMatrix([[2, 0, 0, 0], [0, 3, 0, 0], [0.1, 0, -4 / 3, -4 / 3], [0, 0, -1, 0]], { mapping: "d3d" }), /the same for every pixel/);
     for (const bad of ["matrix", null, {}, undefined]) refuses(() => Camera.fromMatrix(bad), /a matrix must be/, TypeError);

@@ -126,6 +126,8 @@ test("files are those of the fs that is given, and whole or not there", async ()
     await refuses(() => run("plot stability -o old.svg", { fs }), /native program/); // once it is open
     assert.equal(fs.readFileSync("old.svg", "utf8"), "old");
     await refuses(() => run("table -o none/here.txt", { fs }), /cannot write 'none\/here.txt': No such file/);
+    await refuses(() => run("table -o .", { fs }), /cannot write '\.': Is a directory/);
+    for (const form of ["--json", "--report json"]) assert.equal((await run(`check failing.need ${form}`, { fs })).command, "check");
     assert.deepEqual(fs.readFileSync("made.npy"), fs.readFileSync("native.npy"));
 });
 
