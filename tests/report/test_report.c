@@ -182,6 +182,21 @@ TEST(any_text_in_json) {
     apple.word = before;
 }
 
+/* RFC 4180: quotes stand where a comma, a quote or either end of a line is in the word, and nowhere else. */
+TEST(any_byte_in_csv) {
+    const char *const before = apple.word;
+    for (int c = 1; c < 128; c++) {
+        const bool quoted = strchr(",\"\r\n", c) != NULL;
+        const char text[] = {'a', (char)c, 'b', '\0'};
+        char cell[16];
+        apple.word = text;
+        snprintf(cell, sizeof cell, quoted ? ",\"a%s%cb\"," : ",a%s%cb,", c == '"' ? "\"" : "", c);
+        if (strstr(written(FORM_CSV, 0, 1), cell) == NULL)
+            fail_msg("byte %d", c);
+    }
+    apple.word = before;
+}
+
 /* Length of what begins the text and is UTF-8 by iconv, 0 where nothing does. */
 static size_t iconv_utf8(const char *text) {
     for (size_t length = 1; length <= 4 && length <= strlen(text); length++) {
