@@ -509,6 +509,13 @@ TEST(staircases) {
     drawn_close(d);
 }
 
+/* Eight have room. */
+TEST(staircases_of_many) {
+    drawn *d = drawn_run(&drawn_light, "plot distribution -n 1 -f 20 -F unorm4,unorm5,unorm6,unorm7 -m d3d,reversed");
+    assert_int_equal(d->panel_count, 8);
+    drawn_close(d);
+}
+
 /* Whatever way depth runs, [-1, 1] reaches 25 of 41 codes; the other mapping, and the model exact, have all. */
 TEST(staircases_behind_signed_ndc) {
     static const struct {
