@@ -591,6 +591,28 @@ TEST(camera_depth_of_the_view) {
     check_says(2, "FAR must be at least --far", "shadow -f 300 --camera-depth d16:reversed:299");
 }
 
+/* Of several maps an engine's bias is what it is in the worst: acne begins next to where it ends being free of it, and
+ * the least that is told is enough in all of them, a hundredth less is not. */
+TEST(engines_of_cascades) {
+    static const char line[] = "shadow -f 300 --cascades 3 --engine three";
+    for (int i = 1; i <= 3; i++) {
+        json_t *root = json_printed(0, "%s --bias=%g", line, -5e-4 * i);
+        const json_t *row = node_at(root, "setups[0].engines[0]");
+        const double free_to = number_at(row, "free_to"), acne = number_at(row, "acne_from");
+        if (!(acne > free_to && acne < free_to + 2) || flag_at(row, "enough"))
+            fail_msg("%d: free to %g, acne from %g", i, free_to, acne);
+        for (int k = 0; k < 4; k++) {
+            const double share = k % 2 == 0 ? 1 : 0.99;
+            json_t *other = k < 2 ? json_printed(0, "%s --bias=%.17g", line, share * number_at(row, "least_bias"))
+                                  : json_printed(0, "%s --bias=%g --normal-bias %.17g", line, -5e-4 * i,
+                                                 share * number_at(row, "least_normal"));
+            assert_int_equal(flag_at(other, "setups[0].engines[0].enough"), share == 1);
+            json_decref(other);
+        }
+        json_decref(root);
+    }
+}
+
 LIST_TEST(check_apart)
 
 /*
