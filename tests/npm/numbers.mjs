@@ -137,6 +137,18 @@ test("cameras of matrices", () => {
     for (const key of ["near", "far", "ortho", "metric"])
         refuses(() => Camera.fromMatrix(all[0][1], { mapping: "d3d", [key]: 3 }), new RegExp(`options of fromMatrix must have no '${key}'`), TypeError);
     refuses(() => Camera.fromMatrix(new Array(16).fill(0)), /fourth row must be .*, got 0 0 0 0$/);
+    const entries = Float32Array.of(1.1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 100000 / 99999.9, -10000 / 99999.9, 0, 0, 1, 0), rounded = Camera.fromMatrix(entries, { mapping: "d3d" });
+    assert.ok(rounded.farDigits < 17 && rounded.nearDigits < 17);
+    for (const [changes, name, other] of [[{ far: 7 }, "far", "near"], [{ near: 0.5 }, "near", "far"]]) {
+        const moved = rounded.replace(changes);
+        assert.deepEqual([moved[`${name}Least`], moved[`${name}Most`], moved[`${name}Digits`], moved[`${other}Least`]], [changes[name], changes[name], 17, rounded[`${other}Least`]]);
+    }
+    // Of an API that asks for at least 4 bits of the grid.
+    for (const subpixel of [4, 5]) assert.equal(new Camera({ viewport: [640, 480], raster: "spec-vulkan", subpixel }).subpixel, subpixel);
+    // Side by side is no overlap.
+    const both = Float64Array.of(5, 6, 7, 8), c = new Camera(), want = c.separation(both.slice(2));
+    assert.deepEqual(c.separation(both.subarray(2), { out: both.subarray(0, 2) }), want);
+    assert.deepEqual(c.separation(both.subarray(0, 2), { out: both.subarray(2) }).length, 2);
     // As %.9g of C, at both ends of what it writes without an exponent.
     for (const [numbers, said] of [[[1e9, 999999999, 999999999.4, 999999999.6], "1e+09 999999999 999999999 1e+09"], [[1e-4, 9.9999e-5, -1e-5, 0.000123456789012], "0.0001 9.9999e-05 -1e-05 0.000123456789"],
         [[-1234567890.5, 1e100, 0.5, 100], "-1.23456789e+09 1e+100 0.5 100"], [[99999999.95, 0.1, 1 / 3, -2e-100], "100000000 0.1 0.333333333 -2e-100"]])
