@@ -371,7 +371,7 @@ SHELL_TESTS := $(filter-out $(TOOLS),$(wildcard tests/*.sh))
 # sanitizer has a say; of the gallery none that it has not had of the same figures in test_drawn_*; and of the answers
 # that test_values_* and these scripts compute anew none that it has not had of the same commands in cli.sh.
 ONCE := $(patsubst %,tests/%.sh,layers headers install readme can_fail mutants aims cameras python npm web gappa engines \
-    public_models vtk plots examples questions same seeds judge_code) $(B)/tests/test_values_%
+    public_models vtk plots examples questions same seeds judge_code fields platform code) $(B)/tests/test_values_%
 # The scripts come first, which take longest: at the end no core waits for one of them.
 RUN_TESTS = $(filter-out $(if $(filter release,$(CONF)),,$(ONCE)),$(SHELL_TESTS) $(TEST_PROGRAMS))
 
