@@ -4,6 +4,7 @@
  * planes that they then have to say: in both layouts, for both ways to look, both ranges of NDC and both directions,
  * with a finite and an infinite far plane, rounded to so many digits or to binary32, written as programs write them.
  */
+#include "camera/matrix.h"
 #include "core/append.h"
 #include "printed.h"
 
@@ -159,6 +160,28 @@ TEST(views_that_are_not_centred) {
             json_decref(root);
         }
         printed_free(&p);
+    }
+    tally_end(&t);
+}
+
+/* Four tangents are where NDC -1 and 1 lie, up and down in either order. */
+TEST(edges_of_tangents) {
+    tally t = {.name = "tangents"};
+    rng r = rng_make(__func__);
+    for (int i = 0; i < 1000; i++) {
+        const double left = rng_uniform(&r, -2, 1), right = left + rng_log(&r, 0.01, 2);
+        const double down = rng_uniform(&r, -2, 1), up = down + rng_log(&r, 0.01, 2);
+        const bool down_first = rng_below(&r, 2) == 0;
+        char text[128], error[MATRIX_ERROR_SIZE];
+        camera_matrix m;
+        snprintf(text, sizeof text, "%.17g,%.17g,%.17g,%.17g", left, right, down_first ? down : up,
+                 down_first ? up : down);
+        assert_int_equal(camera_matrix_read(&m, text, error), 0);
+        const double ends[2][2] = {{left, right}, {down, up}};
+        for (int k = 0; k < 2; k++)
+            for (int end = 0; end < 2; end++)
+                TALLY(&t, fabs(((end ? 1 : -1) - m.taken.centre[k]) * m.taken.half[k] - ends[k][end]) <= 1e-12,
+                      "%s: axis %d ends at %.17g", text, k, ((end ? 1 : -1) - m.taken.centre[k]) * m.taken.half[k]);
     }
     tally_end(&t);
 }

@@ -15,6 +15,7 @@ static const char *const lines[] = {
     "table -n 0.3 -f 1000 -F unorm16,unorm24,fp32 -m d3d,reversed --code 0,1,2,40000,65535",
     "table -n 0.1 -f inf -F fp32 -m reversed --code 0,1,12345678,1000000000,1065353216",
     "table -n 1 -f 200 -F unorm16 -m linear --code 0,300,328,9000,65535",
+    "table -n 1 -f 200 -F unorm16 -m linear --code 400,500,600,9000,65535",
 };
 
 /* Depths that are stored as the code of a cell begin and end with it. */
@@ -41,6 +42,17 @@ static void want_row(values *v, const dp_setup *setup, bool by_code, double aske
     want(v, "interval=%f", cell.width);
 }
 
+/* That an interval is 0 is said of whichever row has one. */
+static void check_note(const char *text, const dp_setup *setup, const double asked[ASKED], bool by_code) {
+    bool empty = false;
+    for (int a = 0; a < ASKED; a++) {
+        const uint32_t code =
+            by_code ? (uint32_t)asked[a] : dp_format_encode(&setup->spec.format, setup->spec.rounding, asked[a]);
+        empty = empty || dp_cell_of(setup, code).width == 0;
+    }
+    assert_int_equal(strstr(text, "an interval of 0:") != NULL, empty);
+}
+
 TEST(each_number) {
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
         values v = values_of(lines[i]);
@@ -62,6 +74,8 @@ TEST(each_number) {
                               "interval [scene]");
         char *text = output_of(0, lines[i], "");
         check_table(&v, text, "setups[].rows[]", "depth:7, code:10, z:8, cell_lo:9, cell_hi:9, interval:3");
+        if (n == 1)
+            check_note(text, &setups[0], asked, by_code);
         values_free(&v);
         free(text);
     }

@@ -110,6 +110,7 @@ TEST(nearly_as_far_off) {
         dp_mapping mapping;
         int ortho;
         double zfar;
+        const char *arith;
     } cases[] = {{"unorm24", DP_MAPPING_D3D, 0, 1000},
                  {"unorm24", DP_MAPPING_REVERSED, 0, 1000},
                  {"fp32", DP_MAPPING_D3D, 0, 1000},
@@ -117,7 +118,9 @@ TEST(nearly_as_far_off) {
                  {"unorm16", DP_MAPPING_GL, 0, INFINITY},
                  {"fp16", DP_MAPPING_REVERSED, 0, INFINITY},
                  {"unorm24", DP_MAPPING_GL_REVERSED, 0, 1000},
-                 {"unorm24", DP_MAPPING_D3D, 1, 1000}};
+                 {"unorm24", DP_MAPPING_D3D, 1, 1000},
+                 {"unorm24", DP_MAPPING_D3D, 0, 1000, "product"},
+                 {"unorm24", DP_MAPPING_REVERSED, 0, 1000, "product"}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         dp_format f[2];
         dp_spec spec = dp_spec_default();
@@ -127,6 +130,8 @@ TEST(nearly_as_far_off) {
         spec.mapping = cases[i].mapping;
         spec.ortho = cases[i].ortho;
         spec.zfar = cases[i].zfar;
+        if (cases[i].arith != NULL)
+            assert_int_equal(dp_arith_parse(cases[i].arith, &spec.arith), DP_OK);
         assert_true(dp_format_parse(cases[i].format, f) > 0);
         spec.format = f[0];
         assert_int_equal(dp_setup_init(&s, &spec), DP_OK);
@@ -139,8 +144,9 @@ TEST(nearly_as_far_off) {
             most = fmax(most, share);
             least = fmin(least, share);
         }
-        printf("# %s %s%s: %.3f to %.3f of the bound found\n", spec.format.name, dp_mapping_get(spec.mapping)->name,
-               spec.ortho ? " ortho" : "", least, most);
+        printf("# %s %s%s%s%s: %.3f to %.3f of the bound found\n", spec.format.name, dp_mapping_get(spec.mapping)->name,
+               spec.ortho ? " ortho" : "", cases[i].arith != NULL ? " " : "",
+               cases[i].arith != NULL ? cases[i].arith : "", least, most);
         assert_true(most <= 1 && most > 0.7 && least > 0.3);
     }
 }

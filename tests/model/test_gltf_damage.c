@@ -67,6 +67,12 @@ static const struct {
      ",\"accessors\":[{\"bufferView\":0,\"componentType\":5121,\"count\":2,\"type\":\"VEC3\",\"sparse\":"
      "{\"count\":2,\"indices\":{\"bufferView\":0,\"componentType\":5121},\"values\":{\"bufferView\":0}}}]," VIEWS "}",
      "glTF: the indices of a sparse accessor must rise and be below 2"},
+    {ASSET "\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"name\":\"box\",\"primitives\":[{\"attributes\":{\"POSITION\":0},"
+           "\"indices\":1}]}],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":1,\"type\":\"VEC3\"},"
+           "{\"bufferView\":0,\"byteOffset\":9,\"componentType\":5121,\"count\":3,\"type\":\"SCALAR\"}],"
+           "\"bufferViews\":[{\"buffer\":0,\"byteLength\":12}],\"buffers\":[{\"byteLength\":12,"
+           "\"uri\":\"data:;base64,AAAAAAAAAAAAAAAB\"}]}",
+     "glTF: mesh 'box' has vertex 1 of 1"},
 };
 
 TEST(refused) {

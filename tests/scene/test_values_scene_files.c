@@ -187,27 +187,30 @@ TEST(mended) {
     free(text);
 }
 
-/* From an eye the range is what it sees, and what it does not see is not asked for. */
-TEST(needs_of_an_eye) {
-    char command[1024];
-    size_t at = 0;
-    const char *path = scratch_file("eye.need");
-    snprintf(command, sizeof command, "scene " HOUSE " " CAMERA " --camera street --within 70 --emit-need %s", path);
-    json_t *root = json_printed(-1, "%s", command);
-    snprintf(command, sizeof command, "check %s", path);
-    json_t *judged = json_printed(-1, "%s", command);
-    const json_t *list = node_at(root, "findings"), *asked = node_at(judged, "requirements");
-    for (size_t k = 0; k < json_array_size(list); k++) {
-        const json_t *f = json_array_get(list, k);
-        if (number_at(f, "gap_min") < 1e-9 || isnan(number_at(f, "seen_from")))
-            continue;
-        const json_t *need = json_array_get(asked, at++);
-        assert_true(number_at(need, "lo") == number_at(f, "seen_from"));
-        assert_true(number_at(need, "hi") == fmin(number_at(f, "seen_to"), 70.0));
+/* From an eye the range is what it sees, and what it does not see is not asked for; from several it is that of all. */
+TEST(needs_of_eyes) {
+    const char *path = scratch_file("eye.need"), *walk = scratch_text("walk.txt", "0 2 12 0 1 0\n6 3 12 0 1 0\n");
+    for (int several = 0; several < 2; several++) {
+        char command[1024];
+        size_t at = 0;
+        snprintf(command, sizeof command, "scene " HOUSE " " CAMERA " %s %s --within 70 --emit-need %s",
+                 several ? "--path" : "--camera", several ? walk : "street", path);
+        json_t *root = json_printed(-1, "%s", command);
+        snprintf(command, sizeof command, "check %s", path);
+        json_t *judged = json_printed(-1, "%s", command);
+        const json_t *list = node_at(root, "findings"), *asked = node_at(judged, "requirements");
+        for (size_t k = 0; k < json_array_size(list); k++) {
+            const json_t *f = json_array_get(list, k);
+            if (number_at(f, "gap_min") < 1e-9 || isnan(number_at(f, "seen_from")))
+                continue;
+            const json_t *need = json_array_get(asked, at++);
+            assert_true(number_at(need, "lo") == (several ? 0.05 : number_at(f, "seen_from")));
+            assert_true(number_at(need, "hi") == (several ? 70.0 : fmin(number_at(f, "seen_to"), 70.0)));
+        }
+        assert_true(at > 5 && json_array_size(asked) == at + 1);
+        json_decref(root);
+        json_decref(judged);
     }
-    assert_true(at > 5 && json_array_size(asked) == at + 1);
-    json_decref(root);
-    json_decref(judged);
 }
 
 /* ---- The bias ---------------------------------------------------------------------------------------------------- */

@@ -239,6 +239,30 @@ TEST(gap_of_a_length) {
     tally_end(&t);
 }
 
+/* What a new light of each engine has, by hand from the sources that the rows name: of suns, spot and point lights. */
+TEST(defaults) {
+    static const struct {
+        const char *engine;
+        double bias[3], normal[3];
+    } rows[] = {{"three", {0, 0, 0}, {0, 0, 0}},
+                {"unity-urp", {1, 1, 1}, {1, 1, 0}},
+                {"bevy", {0.02, 0.02, 0.08}, {1.8, 1.8, 0.6}},
+                {"babylon", {0.00005, 0.00005, 0.00005}, {0, 0, 0}},
+                {"playcanvas", {0.05, 0.05, 0.05}, {0, 0, 0}},
+                {"filament", {0.001, 0.001, 0.001}, {1, 1, 1}},
+                {"unreal", {0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}},
+                {"godot", {0.1, 0.03, 0.1}, {2, 1, 1}}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const shadow_engine *engine = shadow_engine_find(rows[i].engine);
+        assert_non_null(engine);
+        for (int kind = 0; kind < 3; kind++) {
+            assert_true(engine->standard[kind][0] == rows[i].bias[kind]);
+            assert_true(engine->standard[kind][1] == rows[i].normal[kind]);
+        }
+    }
+    assert_int_equal(shadow_engine_table.count, sizeof rows / sizeof rows[0]);
+}
+
 /* The numbers for another engine do the same at the nearest receivers. */
 TEST(same_elsewhere) {
     static const char *const told[] = {"three", "unity-urp", "bevy", "babylon", "playcanvas", "filament", "godot"};

@@ -123,4 +123,5 @@ TEST(test_lattice) {
     assert_true(frusta_lattice(&spec, apart * 1.0001).passed);
     assert_relative(frusta_lattice_near(&spec, f, 1.0), (f + 1.0) * f / (codes + f + 1.0), 1e-9);
     assert_true(isnan(frusta_lattice_near(&spec, f, 1e-9)));
+    assert_int_equal(frusta_at_least(&spec, 1e-9), 1); /* which does not do */
 }
