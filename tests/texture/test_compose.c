@@ -107,6 +107,7 @@ TEST(mixed_as_shaders_do) {
         const double most = picture.type == IMAGE_U8 ? 255 : 65535;
         assert_true(got.type == picture.type && got.channels == channels && got.width == WIDTH);
         assert_int_equal(strncmp(got.note, "product=colours", 15), 0);
+        assert_true(strtod(strstr(got.note, "scale=") + 6, NULL) == 1 / most);
         for (int k = 0; k < (int)(PIXELS * channels); k++) {
             const int pixel = k / (int)channels, x = pixel % WIDTH, y = pixel / WIDTH;
             const uint32_t channel = (uint32_t)k % channels;
