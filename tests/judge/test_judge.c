@@ -476,6 +476,22 @@ TEST(test_read) {
     unlink(path);
 }
 
+/* What went in with four digits at the most was typed, and is what was meant; with five it was rounded. */
+TEST(test_typed) {
+    static const char *const rows[] = {"0.1234,1\n0.5,2\n", "0.12345,1\n0.5,2\n"};
+    for (int i = 0; i < 2; i++) {
+        char error[PAIRS_ERROR_SIZE], path[] = "/tmp/depthprec-judge-XXXXXX";
+        judge_pairs p;
+        FILE *out = fdopen(mkstemp(path), "w");
+        fputs(rows[i], out);
+        fclose(out);
+        assert_int_equal(judge_pairs_read(path, &p, error), 0);
+        unlink(path);
+        assert_relative(p.in_digits.absolute + 1, 1 + (i == 0 ? 0 : 0.5e-5), 1e-12);
+        judge_pairs_free(&p);
+    }
+}
+
 /* The same pairs in every way that programs write them, and half a unit of the last digit of their values. */
 TEST(test_forms) {
     static const struct {

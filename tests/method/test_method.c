@@ -128,6 +128,24 @@ TEST(errors_are_within_claims_and_repeat) {
     tally_end(&t);
 }
 
+/* Of an orthographic camera those ways to a place are measured that are for it. */
+TEST(orthographic_places) {
+    static bench_result results[BENCH_METHODS_MAX];
+    const method_family_row *family = method_family_find("position");
+    size_t ways = 0;
+    dp_setup setup;
+    assert_int_equal(method_setup(family, 0, 0.1, 1000, true, &setup), DP_OK);
+    const size_t count = bench_run(family, 0, &setup, 0, results);
+    for (size_t i = 0; i < count; i++) {
+        const bool is_for = results[i].row->position->ortho;
+        if ((results[i].measured.count > 0) != is_for || (is_for && !(results[i].measured.worst.relative < 0.1)))
+            fail_msg("%s: %g of %zu places", results[i].row->name, results[i].measured.worst.relative,
+                     (size_t)results[i].measured.count);
+        ways += is_for;
+    }
+    assert_true(ways > 0);
+}
+
 /* Relative errors of linearization at 0.1 to 1000, measured elsewhere against 128-bit arithmetic. */
 TEST(linearize_errors_are_the_published_ones) {
     static const struct {
