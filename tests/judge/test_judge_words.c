@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The numbers that a word gives a shader: by its name, or as engines document it (CesiumJS, UniformState.js; Unity;
  * PlayCanvas; Unreal). No driver is needed. */
+#include "judge/given.h"
 #include "judge/written.h"
 #include "printed.h"
 #include "support.h"
@@ -163,4 +164,44 @@ TEST(test_ends_of_lines) {
     assert_null(strstr(plain.text, "gl_FragDepth"));
     free(plain.text);
     free(ended.text);
+}
+/* The numbers of a word in a set-up. */
+static const double *given_in(const char *word, const dp_setup *setup) {
+    static double numbers[GIVEN_FLOATS];
+    const given_row *row = given_find(word);
+    assert_non_null(row);
+    given_fill(row, setup, numbers);
+    return numbers;
+}
+
+/* NDC depth, or z, as a matrix by rows makes it of (0, 0, x, 1). */
+static double through(const double m[GIVEN_FLOATS], double x) {
+    return (m[10] * x + m[11]) / (m[14] * x + m[15]);
+}
+
+/* What shaders are given of a camera does there what their engines' formulas do with it: a depth is read back, and z
+ * and NDC depth are each made of the other. */
+TEST(numbers_that_are_given) {
+    rng r = rng_make("given");
+    for (int i = 0; i < 2000; i++) {
+        dp_setup s;
+        dp_spec spec = dp_spec_default();
+        spec.mapping = (dp_mapping)(i % 4);
+        spec.ortho = rng_below(&r, 2) == 0;
+        spec.znear = rng_log(&r, 1e-2, 10);
+        spec.zfar = !spec.ortho && rng_below(&r, 4) == 0 ? (double)INFINITY : spec.znear * rng_log(&r, 2, 1e3);
+        assert_int_equal(dp_setup_init(&s, &spec), DP_OK);
+        const double n = spec.znear, f = spec.zfar, z = rng_log(&r, n, isinf(f) ? 1e3 * n : f), d = dp_window(&s, z);
+        const double ndc = dp_mapping_get(spec.mapping)->ndc_signed ? 2 * d - 1 : d, slack = 1e-9 * (isinf(f) ? z : f);
+        const double *g = given_in("inv_device_z", &s);
+        assert_true(fabs(g[0] * d + g[1] + 1 / (g[2] * d - g[3]) - z) <= slack * z / n);
+        for (int lh = 0; lh < 2; lh++) {
+            const double eye = lh ? z : -z;
+            g = given_in(lh ? "projection_lh" : "projection", &s);
+            assert_true(fabs(through(g, eye) - ndc) <= 1e-9);
+            g = given_in(lh ? "inverse_projection_lh" : "inverse_projection", &s);
+            assert_true(fabs(through(g, ndc) - eye) <= slack * z / n);
+        }
+        assert_true(given_in("camera_params", &s)[3] == (spec.ortho != 0));
+    }
 }
