@@ -30,8 +30,8 @@ static void superscript(char *out, size_t size, int power) {
 }
 
 void ticks_label(double value, bool powers, char out[TICKS_TEXT]) {
-    if (!powers || value == 0 || !isfinite(value)) {
-        snprintf(out, TICKS_TEXT, fabs(value) >= 1e3 && fabs(value) < 1e6 ? "%.6g" : "%.3g", value);
+    if (!powers || value == 0 || !isfinite(value)) { /* three digits of 999.7 would be 1e+03 */
+        snprintf(out, TICKS_TEXT, fabs(value) >= 999.5 && fabs(value) < 1e6 ? "%.6g" : "%.3g", value);
         return;
     }
     int power = (int)floor(dp_log10(fabs(value)) + 1e-9);

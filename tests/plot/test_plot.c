@@ -398,15 +398,24 @@ TEST(test_ticks) {
 }
 
 TEST(test_tick_words) {
-    char text[TICKS_TEXT];
-    ticks_label(1000, false, text);
-    assert_string_equal(text, "1000");
-    ticks_label(0.001, false, text);
-    assert_string_equal(text, "0.001");
-    ticks_label(1e-10, true, text);
-    assert_string_equal(text, "10\u207b\u00b9\u2070");
-    ticks_label(3.3554432e6, true, text);
-    assert_string_equal(text, "3.36\u00b710\u2076");
+    static const struct {
+        double value;
+        bool powers;
+        const char *text;
+    } rows[] = {{1000, false, "1000"},
+                {0.001, false, "0.001"},
+                {999.7, false, "999.7"},
+                {999.4, false, "999"},
+                {250000, false, "250000"},
+                {1.5e6, false, "1.5e+06"},
+                {-123456, false, "-123456"},
+                {1e-10, true, "10\u207b\u00b9\u2070"},
+                {3.3554432e6, true, "3.36\u00b710\u2076"}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        char text[TICKS_TEXT];
+        ticks_label(rows[i].value, rows[i].powers, text);
+        assert_string_equal(text, rows[i].text);
+    }
 }
 
 static double distance(const double p[2], const double a[2], const double b[2]) {
