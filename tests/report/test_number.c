@@ -184,3 +184,20 @@ TEST(compared) {
     assert_string_equal(number_compared((double)INFINITY, 0.01, 6).value.text, "inf");
     assert_string_equal(number_compared(0.25, (double)NAN, 6).value.text, "0.25");
 }
+
+/* Digits that show two of a step, and no more; at most so many, and so many where there is nothing to show. */
+TEST(digits_within) {
+    rng r = rng_make("digits within");
+    for (int i = 0; i < 1000; i++) {
+        const double at = rng_log(&r, 1e-6, 1e9), step = -at * rng_log(&r, 1e-12, 1);
+        const int digits = number_digits_within(at, step, 1, 17);
+        const double last = pow(10, floor(log10(at)) - digits + 1);
+        if (!(10 * last <= -step * (1 + 1e-9) && 100 * last >= -step * (1 - 1e-9)))
+            fail_msg("%d digits of %.17g, step %.17g", digits, at, -step);
+    }
+    assert_int_equal(number_digits_within(1, 1e-12, 3, 9), 9);
+    assert_int_equal(number_digits_within(1, 10, 3, 9), 3);
+    assert_int_equal(number_digits_within(0, 1, 3, 9), 3);
+    assert_int_equal(number_digits_within(1, 0, 3, 9), 3);
+    assert_int_equal(number_digits_within(INFINITY, 1, 3, 9), 3);
+}
