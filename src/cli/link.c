@@ -13,7 +13,7 @@
 
 /* The figures that the page has. */
 static const name_list figures = {
-    .words = (const char *const[]){"distribution", "share", "error", "interval", "budget", "map", NULL}};
+    .words = (const char *const[]){"distribution", "share", "error", "interval", "budget", "map", "staircase", NULL}};
 
 enum { FRAGMENT_MAX = 4096, TEXT_SIZE = FRAGMENT_MAX + 2 };
 

@@ -281,6 +281,8 @@ TEST(checked) {
     check_says(0, "Enough facing the camera, not", "%s --units -2", line);
     check_says(1, "Enough facing the camera, not", "%s --units -2 --check", line);
     check_says(0, "Enough facing the camera and at any slant\n", "%s --units -11 --check", line);
+    check_says(0, "Not enough facing the camera, enough at the slope\n",
+               "bias -F fp32 -m d3d --units 0 --factor -4 --slope 0.1 --range 1:2"); /* which moves by 0.4 there */
     check_says(1, "Enough facing the camera\n", "bias -F fp32 -m d3d,reversed --units -1 --check");
     check_says(0, "Enough facing the camera\n", "bias --api three --polygonOffsetUnits -1 --at 1 --check");
     check_says(1, "the clamp holds it", "bias --api d3d12 -m d3d -F d24 --DepthBias=-5 --DepthBiasClamp=-1e-8 --check");

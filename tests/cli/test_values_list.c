@@ -472,6 +472,30 @@ static void check_completed(const char *shell, const option_row *row, const char
         fail_msg("%s: no '%s%s'", shell, begins, words);
 }
 
+/* A link is for the figures that the page's own list has, and for no other. */
+TEST(figures_of_the_page) {
+    char *script = text_of_file("src/web/state.js"), *from = strstr(script, "export const FIGURES = {");
+    assert_non_null(from);
+    from += strlen("export const FIGURES =");
+    *strchr(from, '}') = '\0';
+    size_t there = 0;
+    for (size_t i = 0; figure_get(i) != NULL; i++) {
+        char key[64];
+        snprintf(key, sizeof key, " %s: \"", figure_get(i)->name);
+        const bool has = strstr(from, key) != NULL;
+        printed p = print_of("plot %s --link", figure_get(i)->name);
+        if ((p.status == 0) != has || (has && strncmp(p.out, "depthprec.html#plot%20", 22) != 0))
+            fail_msg("%s: %s%s", figure_get(i)->name, p.out, p.errors);
+        printed_free(&p);
+        there += has;
+    }
+    size_t keys = 0;
+    for (const char *c = from; (c = strstr(c, ": \"")) != NULL; c += 3)
+        keys++;
+    assert_int_equal(there, keys);
+    free(script);
+}
+
 TEST(completions) {
     static const char *const shells[] = {"bash", "zsh", "fish"};
     const option_row *all[OPTIONS_MAX + 1];
