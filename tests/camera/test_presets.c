@@ -61,6 +61,10 @@ TEST(test_computed) {
          2867.6227893867376 / .313177773185179, 1200 / .313177773185179},
         {"maplibre-globe:zoom=14,pitch=60,latitude=48,height=800", .5 / .313177773185179,
          3991716.697854359 / .313177773185179, 1200 / .313177773185179},
+        /* heights of deck.gl's screen, 800 pixels of 40.03e6/512/1024 m; looking to the horizon far is held to 10 times
+           the altitude */
+        {"deckgl:zoom=10,height=800", .1 * 61080.9326171875, 1.5 * 1.01 * 61080.9326171875, 1.5 * 61080.9326171875},
+        {"deckgl:zoom=10,height=800,pitch=80", .1 * 61080.9326171875, 15 * 61080.9326171875, 1.5 * 61080.9326171875},
         /* of those engines, as presets/ask.mjs has them; by hand where it has none */
         {"vtk:radius=82.26,distance=3.911", (.99 * 2.911 - 1) * 82.26,
          (1.01 * 4.911 + .5 * (4.911 - (.99 * 2.911 - 1))) * 82.26, 321.71886},

@@ -139,6 +139,12 @@ test("a file that is written anew", async () => {
         await run("table --csv -o mode.csv", { fs });
         assert.equal(fs.statSync("mode.csv").mode & 0o777, mode);
         assert.match(fs.readFileSync("mode.csv", "utf8"), /^near/);
+        fs.writeFileSync("mode.csv", "old");
+        fs.symlinkSync("mode.csv", "link.csv");
+        await run("table --csv -o link.csv", { fs }); // what the link points to is written, and it stays a link
+        assert.equal(fs.readlinkSync("link.csv"), "mode.csv");
+        assert.match(fs.readFileSync("mode.csv", "utf8"), /^near/);
+        fs.unlinkSync("link.csv");
     }
     for (const failing of ["writeFileSync", "chmodSync", "renameSync"]) {
         fs.writeFileSync("mode.csv", "old");
