@@ -203,7 +203,7 @@ static void check_text(values *v, const bias_case *c, const char *line) {
     free(text);
 }
 
-/* What a sentence is said of: a verdict, or a row. */
+/* The subject of a sentence: a verdict, or a row. */
 static bool any_is(const values *v, const char *field) {
     for (size_t i = 0; i < v->count; i++) {
         const size_t before = strlen(v->items[i].path) - strlen(field);

@@ -291,7 +291,7 @@ TEST(test_three) {
     }
 }
 
-/* What clipping removes is told once, of however many depth ranges, which come behind it. */
+/* Clipping is told once, of however many depth ranges, which come behind it. */
 TEST(clipping_is_told_once) {
     static const char *const ranges[] = {"", "--depth-range 0:0.5", "--depth-range 0:1,0:0.5,0.5:1"};
     for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++) {

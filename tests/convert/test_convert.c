@@ -340,7 +340,7 @@ TEST(subnormals_that_are_flushed) {
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
-/* What came of a way: `whole` that which was asked for, which has more fields. */
+/* The outcome of a way: `whole` that which was asked for, which has more fields. */
 static void want_way(values *v, const convert_chain *c, bool whole) {
     const convert_found f = convert_all(c, 0);
     char name[32];

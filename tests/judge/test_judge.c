@@ -476,7 +476,7 @@ TEST(test_read) {
     unlink(path);
 }
 
-/* What went in with four digits at the most was typed, and is what was meant; with five it was rounded. */
+/* Inputs of four digits at the most were typed, and are what was meant; those of five were rounded. */
 TEST(test_typed) {
     static const char *const rows[] = {"0.1234,1\n0.5,2\n", "0.12345,1\n0.5,2\n"};
     for (int i = 0; i < 2; i++) {

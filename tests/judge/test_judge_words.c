@@ -179,8 +179,8 @@ static double through(const double m[GIVEN_FLOATS], double x) {
     return (m[10] * x + m[11]) / (m[14] * x + m[15]);
 }
 
-/* What shaders are given of a camera does there what their engines' formulas do with it: a depth is read back, and z
- * and NDC depth are each made of the other. */
+/* Engines' formulas do with the numbers that shaders are given of a camera what they are for: a depth is read back, and
+ * z and NDC depth are each made of the other. */
 TEST(numbers_that_are_given) {
     rng r = rng_make("given");
     for (int i = 0; i < 2000; i++) {

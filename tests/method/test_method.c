@@ -128,7 +128,7 @@ TEST(errors_are_within_claims_and_repeat) {
     tally_end(&t);
 }
 
-/* Of an orthographic camera those ways to a place are measured that are for it. */
+/* Ways to a place that are for orthographic cameras are measured with one. */
 TEST(orthographic_places) {
     static bench_result results[BENCH_METHODS_MAX];
     const method_family_row *family = method_family_find("position");

@@ -170,7 +170,7 @@ TEST(linear01_shows_a_short_range) {
     }
 }
 
-/* Of several far planes the farthest ends what may be shown, in whatever order they stand. */
+/* The farthest of several far planes ends what may be shown, in whatever order they stand. */
 TEST(linear01_of_several_far_planes) {
     static const char *const orders[] = {"10,20", "20,10", "20,10,15"};
     for (size_t i = 0; i < sizeof orders / sizeof orders[0]; i++) {
