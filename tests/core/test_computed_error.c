@@ -111,14 +111,14 @@ TEST(nearly_as_far_off) {
         int ortho;
         double zfar;
         const char *arith;
-    } cases[] = {{"unorm24", DP_MAPPING_D3D, 0, 1000},
-                 {"unorm24", DP_MAPPING_REVERSED, 0, 1000},
-                 {"fp32", DP_MAPPING_D3D, 0, 1000},
-                 {"fp32", DP_MAPPING_REVERSED, 0, 1000},
-                 {"unorm16", DP_MAPPING_GL, 0, INFINITY},
-                 {"fp16", DP_MAPPING_REVERSED, 0, INFINITY},
-                 {"unorm24", DP_MAPPING_GL_REVERSED, 0, 1000},
-                 {"unorm24", DP_MAPPING_D3D, 1, 1000},
+    } cases[] = {{"unorm24", DP_MAPPING_D3D, 0, 1000, NULL},
+                 {"unorm24", DP_MAPPING_REVERSED, 0, 1000, NULL},
+                 {"fp32", DP_MAPPING_D3D, 0, 1000, NULL},
+                 {"fp32", DP_MAPPING_REVERSED, 0, 1000, NULL},
+                 {"unorm16", DP_MAPPING_GL, 0, INFINITY, NULL},
+                 {"fp16", DP_MAPPING_REVERSED, 0, INFINITY, NULL},
+                 {"unorm24", DP_MAPPING_GL_REVERSED, 0, 1000, NULL},
+                 {"unorm24", DP_MAPPING_D3D, 1, 1000, NULL},
                  {"unorm24", DP_MAPPING_D3D, 0, 1000, "product"},
                  {"unorm24", DP_MAPPING_REVERSED, 0, 1000, "product"}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
