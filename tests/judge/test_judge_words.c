@@ -96,11 +96,8 @@ TEST(test_all_that_fit) {
         json_t *root = json_printed(0, "judge --pairs %s %s --json", path, rows[i].options);
         size_t count = 0;
         for (; rows[i].computes[count] != NULL; count++) {
-            char at[32];
-            snprintf(at, sizeof at, "fits[%zu].computes", count);
-            assert_string_equal(text_at(root, at), rows[i].computes[count]);
-            snprintf(at, sizeof at, "fits[%zu].mapping", count);
-            assert_string_equal(text_at(root, at), rows[i].mapping[count]);
+            assert_string_equal(text_at(root, "fits[%zu].computes", count), rows[i].computes[count]);
+            assert_string_equal(text_at(root, "fits[%zu].mapping", count), rows[i].mapping[count]);
         }
         assert_int_equal(json_array_size(node_at(root, "fits")), count);
         json_decref(root);

@@ -368,7 +368,8 @@ TEST(test_rasterizer) {
             const char *by = first ? rows[i].scene[k] : rows[i].predicted[k - SHOT_FORMATS];
             if (by == NULL || (!first && rows[i].named == NULL))
                 continue;
-            const probe_finding *f = find(&r, first ? "rasterizer" : "prediction", probe_format_name(k % SHOT_FORMATS));
+            const probe_finding *f =
+                find(&r, first ? "rasterizer" : "prediction", probe_format_name((shot_format)(k % SHOT_FORMATS)));
             assert_non_null(strstr(f->words, by));
             assert_true(f->cases == SHOT_PIXELS && f->cases - f->hits == (k == rows[i].off));
             assert_true((f->sure == PROBE_SURE) == (k != rows[i].off));
