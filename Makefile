@@ -66,9 +66,9 @@ OPTIMIZE_asan := -O2 -g1
 CFLAGS_TESTS := $(if $(filter file,$(origin CFLAGS)),-O1 $(filter -g%,$(CFLAGS)),$(CFLAGS))
 
 SANITIZE := address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
-# No loop with sanitizers in it becomes vectors. That they are there gcc says by this macro, clang by another word. What
-# is read through a pointer that three checks would refuse, the address sanitizer refuses, too; they are `make fuzz`'s, for
-# two fifths of the time of compiling go into them.
+# No loop with sanitizers in it becomes vectors. That they are there gcc says by this macro, clang by another word. Of
+# what three checks of pointers refuse, the address sanitizer refuses most once it is read: they are `make fuzz`'s, for two
+# fifths of the time of compiling went into them.
 MODE_asan := -fsanitize=$(SANITIZE) -fno-sanitize=null,object-size,pointer-overflow -Wno-pass-failed -D__SANITIZE_ADDRESS__=1
 # Exceptions within libraries that are opened later need it there from the start.
 LINK_asan := $(if $(shell command -v ld.lld),-fuse-ld=lld) -Wl,--no-as-needed -lstdc++

@@ -3,7 +3,7 @@
 # Changes of our own source that a user would see: tests/mutants.txt.
 #   mutants.sh          a test of the table itself: no row is stale, no room is forgotten
 #   mutants.sh --run    makes each change in a copy of the tree and says whether the tests notice it; `make mutants`
-# ROOM=core and ONLY=regex choose rows, JOBS says how many copies work side by side (2), TEST_SECONDS how long one test
+# TABLE is another table than that, ROOM=core and ONLY=regex choose rows, JOBS says how many copies work side by side (2), TEST_SECONDS how long one test
 # may take (600). First come the tests that the row or the room names, then, unless NEAR=1, all others; the first that
 # fails ends the row.
 set -u

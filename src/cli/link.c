@@ -11,9 +11,10 @@
 #include "core/append.h"
 #include "system/input.h"
 
-/* The figures that the page has. */
+/* The figures that the page draws as the program does. Its staircase is of the planes of its set-up, whatever the
+ * format. */
 static const name_list figures = {
-    .words = (const char *const[]){"distribution", "share", "error", "interval", "budget", "map", "staircase", NULL}};
+    .words = (const char *const[]){"distribution", "share", "error", "interval", "budget", "map", NULL}};
 
 enum { FRAGMENT_MAX = 4096, TEXT_SIZE = FRAGMENT_MAX + 2 };
 
@@ -60,7 +61,7 @@ int link_write(const asked_line *line) {
     const char *page = option_text(line, "link");
     output out;
     if (line->command->part_get != NULL && !names_find(&figures, line->operands[0], NULL, &found))
-        return option_error("link", "must be of a figure that the page has, %s, got '%s'",
+        return option_error("link", "must be of a figure that the page draws as here, %s, got '%s'",
                             names_join(&figures, ", ", " or ", text), line->operands[0]);
     for (size_t i = 0; i < line->given_count; i++) {
         const char *name = line->given[i].name, *value = line->given[i].text;

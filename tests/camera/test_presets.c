@@ -65,6 +65,8 @@ TEST(test_computed) {
            the altitude */
         {"deckgl:zoom=10,height=800", .1 * 61080.9326171875, 1.5 * 1.01 * 61080.9326171875, 1.5 * 61080.9326171875},
         {"deckgl:zoom=10,height=800,pitch=80", .1 * 61080.9326171875, 15 * 61080.9326171875, 1.5 * 61080.9326171875},
+        /* its globe's radius is 256 2^zoom/pi pixels, and 6370972 m */
+        {"deckgl-globe:zoom=2,height=800", 7818358.9185258867, 36197020.755577661, 23455076.755577661},
         /* of those engines, as presets/ask.mjs has them; by hand where it has none */
         {"vtk:radius=82.26,distance=3.911", (.99 * 2.911 - 1) * 82.26,
          (1.01 * 4.911 + .5 * (4.911 - (.99 * 2.911 - 1))) * 82.26, 321.71886},
@@ -95,6 +97,15 @@ TEST(test_computed) {
         assert_true(isnan(known[i].focus) == isnan(made.focus));
         if (!isnan(known[i].focus))
             assert_relative(made.focus, known[i].focus, share);
+    }
+    for (size_t i = 0; preset_get(i) != NULL; i++) {
+        const char *name = preset_get(i)->name;
+        size_t k = 0;
+        while (k < sizeof known / sizeof known[0] &&
+               (strncmp(known[k].text, name, strlen(name)) != 0 || strchr(":", known[k].text[strlen(name)]) == NULL))
+            k++;
+        if (preset_get(i)->function != NULL && k == sizeof known / sizeof known[0])
+            fail_msg("%s has no camera here", name);
     }
     assert_relative(made_by("blender").fov, 39.597752709049864, 1e-14); /* 2 atan(18/50) */
     assert_relative(made_by("blender:lens=18").fov, 90, 1e-14);

@@ -472,7 +472,7 @@ static void check_completed(const char *shell, const option_row *row, const char
         fail_msg("%s: no '%s%s'", shell, begins, words);
 }
 
-/* A link is for the figures that the page's own list has, and for no other. */
+/* A link is for the figures that the page's own list has, and for no other; but for its staircase, which is another. */
 TEST(figures_of_the_page) {
     char *script = text_of_file("src/web/state.js"), *from = strstr(script, "export const FIGURES = {");
     assert_non_null(from);
@@ -482,7 +482,7 @@ TEST(figures_of_the_page) {
     for (size_t i = 0; figure_get(i) != NULL; i++) {
         char key[64];
         snprintf(key, sizeof key, " %s: \"", figure_get(i)->name);
-        const bool has = strstr(from, key) != NULL;
+        const bool has = strstr(from, key) != NULL && strcmp(figure_get(i)->name, "staircase") != 0;
         printed p = print_of("plot %s --link", figure_get(i)->name);
         if ((p.status == 0) != has || (has && strncmp(p.out, "depthprec.html#plot%20", 22) != 0))
             fail_msg("%s: %s%s", figure_get(i)->name, p.out, p.errors);
@@ -492,7 +492,7 @@ TEST(figures_of_the_page) {
     size_t keys = 0;
     for (const char *c = from; (c = strstr(c, ": \"")) != NULL; c += 3)
         keys++;
-    assert_int_equal(there, keys);
+    assert_int_equal(there + 1, keys);
     free(script);
 }
 

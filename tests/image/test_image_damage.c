@@ -220,6 +220,21 @@ TEST(npy_sentences) {
     refused(&h, "npy: its header must have at most 10000 bytes, got 65539");
 }
 
+/* A DDS with that in a word of it is refused with the sentence, or read where there is none. */
+static void with_word(handmade *h, uint32_t word, uint32_t value, const char *sentence) {
+    image got;
+    image_error error;
+    for (int k = 0; k < 4; k++)
+        h->at[4 * word + (uint32_t)k] = (unsigned char)(value >> 8 * k);
+    if (sentence != NULL) {
+        refused(h, sentence);
+        return;
+    }
+    if (!parse(h->at, h->size, &got, &error))
+        fail_msg("%#x in word %u: %s", value, word, error.text);
+    image_free(&got);
+}
+
 /* A word of the header that is another, and what is said of it. */
 TEST(dds_sentences) {
     static const struct {
@@ -249,17 +264,7 @@ TEST(dds_sentences) {
         handmade h = {.size = 0};
         handmade_dds(&h, 2, 2, &(handmade_dds_of){.flags = 4, .fourcc = 114, .dxgi = rows[i].dxgi});
         handmade_bytes(&h, "0123456789abcdef", 16);
-        for (int k = 0; k < 4; k++)
-            h.at[4 * rows[i].word + (uint32_t)k] = (unsigned char)(rows[i].value >> 8 * k);
-        image got;
-        image_error error;
-        if (rows[i].sentence != NULL) {
-            refused(&h, rows[i].sentence);
-            continue;
-        }
-        if (!parse(h.at, h.size, &got, &error))
-            fail_msg("row %zu: %s", i, error.text);
-        image_free(&got);
+        with_word(&h, rows[i].word, rows[i].value, rows[i].sentence);
     }
 }
 
@@ -284,20 +289,10 @@ TEST(dds_of_several) {
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         handmade h = {.size = 0};
-        image got;
-        image_error error;
         handmade_dds(&h, 2, 2, &(handmade_dds_of){.flags = 4, .fourcc = 114});
         handmade_bytes(&h, "0123456789abcdef", 16);
         h.at[10] |= (unsigned char)(rows[i].flag >> 16);
-        for (int k = 0; k < 4; k++)
-            h.at[4 * rows[i].word + (uint32_t)k] = (unsigned char)(rows[i].value >> 8 * k);
-        if (rows[i].sentence != NULL) {
-            refused(&h, rows[i].sentence);
-            continue;
-        }
-        if (!parse(h.at, h.size, &got, &error))
-            fail_msg("row %zu: %s", i, error.text);
-        image_free(&got);
+        with_word(&h, rows[i].word, rows[i].value, rows[i].sentence);
     }
 }
 

@@ -142,13 +142,10 @@ TEST(needs) {
         "-m log -F d24 -f 1e9 --within 300 --separation 0.02 --viewport 640x480", /* none in the lattice */
         "-m linear -F d16 --within 90 --viewport 640x480"};
     for (size_t i = 0; i < sizeof cameras / sizeof cameras[0]; i++) {
-        char command[1024];
         size_t at = 0, failed = 0;
         const char *path = scratch_file("house.need");
-        snprintf(command, sizeof command, "scene " HOUSE " %s --emit-need %s", cameras[i], path);
-        json_t *root = json_printed(-1, "%s", command);
-        snprintf(command, sizeof command, "check %s", path);
-        json_t *judged = json_printed(-1, "%s", command);
+        json_t *root = json_printed(-1, "scene " HOUSE " %s --emit-need %s", cameras[i], path);
+        json_t *judged = json_printed(-1, "check %s", path);
         const json_t *list = node_at(root, "findings"), *asked = node_at(judged, "requirements");
         for (size_t k = 0; k < json_array_size(list); k++) {
             const json_t *f = json_array_get(list, k);
@@ -191,13 +188,10 @@ TEST(mended) {
 TEST(needs_of_eyes) {
     const char *path = scratch_file("eye.need"), *walk = scratch_text("walk.txt", "0 2 12 0 1 0\n6 3 12 0 1 0\n");
     for (int several = 0; several < 2; several++) {
-        char command[1024];
         size_t at = 0;
-        snprintf(command, sizeof command, "scene " HOUSE " " CAMERA " %s %s --within 70 --emit-need %s",
-                 several ? "--path" : "--camera", several ? walk : "street", path);
-        json_t *root = json_printed(-1, "%s", command);
-        snprintf(command, sizeof command, "check %s", path);
-        json_t *judged = json_printed(-1, "%s", command);
+        json_t *root = json_printed(-1, "scene " HOUSE " " CAMERA " %s %s --within 70 --emit-need %s",
+                                    several ? "--path" : "--camera", several ? walk : "street", path);
+        json_t *judged = json_printed(-1, "check %s", path);
         const json_t *list = node_at(root, "findings"), *asked = node_at(judged, "requirements");
         for (size_t k = 0; k < json_array_size(list); k++) {
             const json_t *f = json_array_get(list, k);

@@ -239,7 +239,8 @@ TEST(gap_of_a_length) {
     tally_end(&t);
 }
 
-/* Defaults of a new light in each engine, by hand from the sources that the rows name: of suns, spot and point lights.
+/* Defaults of a new light in each engine, written a second time, so that a slip in either shows: of suns, spot and
+ * point lights.
  */
 TEST(defaults) {
     static const struct {
