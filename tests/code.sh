@@ -1,8 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Code to take away, as others take it: glslangValidator and spirv-val, python3 with numpy, Gappa, where they are
-# installed; naga, which make check-full fetches. MSL and FPCore are looked at by their structure alone: nothing here
-# compiles them.
+# installed; naga, which make check-full fetches. MSL is looked at by its structure alone: nothing here compiles it.
 . tests/tap.sh
 
 methods='magic unity complement-unity linear-01 linear-01-near textbook complement fused double phi-double floor:unorm16 rint:unorm24 floor-double:unorm24'
@@ -16,6 +15,7 @@ more() {
     for packing in rg rgba rgba-r166 rgb24 linear01; do echo "$packing --what pack"; done
     for normals in stereo-8 oct-8 oct-888 xyz-8; do echo "$normals --what normal"; done
     for mapping in log cesium three-webgpu linear; do printf -- "-m $mapping%s\n" '' ' --what encode --uniforms'; done
+    echo '-m gl -f inf'
     printf -- '--ortho -m %s\n' d3d 'reversed --uniforms'
     printf -- '--depth-range %s\n' '0.1:1 -m d3d' '0:0.1 unity -m gl --uniforms' '0.1:1 -m reversed -f inf' '1:0.2 -m gl'
 }
@@ -113,6 +113,12 @@ least=$((least / 2))
 check "every FPCore has its structure" each fpcore structure
 
 gather() { mkdir -p "$scratch/$language" && cp "$scratch/code" "$scratch/$language/$count.$language"; }
+meaning() { each fpcore gather && python3 tests/code/fpcore.py "$scratch/fpcore"; }
+if command -v python3 >/dev/null; then
+    check "every FPCore specifies the eye depth, and its operations stay within their bound" meaning
+else
+    skip "what FPCores mean" "no python3 here"
+fi
 naga() {
     each wgsl gather && code --what projection --language wgsl >"$scratch/wgsl/matrix.wgsl" &&
         code --what position --language wgsl >"$scratch/wgsl/places.wgsl" &&

@@ -84,7 +84,8 @@ fi
 
 unset MAKEFLAGS MAKELEVEL MFLAGS DEPTHPREC_FULL DEPTHPREC_QUICK
 : "${CC:=cc}" "${TEST_SECONDS:=600}"
-export CC TEST_SECONDS LC_ALL=C B=build
+# The first failure ends a test: scripts', and cmocka's.
+export CC TEST_SECONDS LC_ALL=C B=build FIRST_FAILURE=1 CMOCKA_TEST_ABORT=1
 
 stale >&2
 [ -z "$(stale)" ] || exit 1

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # For shell tests:  . tests/tap.sh
 # They run in the project's root; make hands them the program in DEPTHPREC, the build folder in B, the compiler in CC.
+# FIRST_FAILURE=1 ends them at the first test that fails.
 
 : "${B:=build}" "${CC:=cc}" "${DEPTHPREC:=$PWD/$B/depthprec}"
 export LC_ALL=C
@@ -32,6 +33,7 @@ check() { # check NAME COMMAND...: one test, passed when the command exits 0; wh
         cat "$scratch/log" "$broken" | while IFS= read -r line; do printf '# %s\n' "$line"; done
         : >"$broken"
         failures=$((failures + 1))
+        [ -z "${FIRST_FAILURE-}" ] || finish || exit # of one that wants no more
     fi
 }
 

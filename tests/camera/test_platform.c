@@ -2,6 +2,7 @@
 /* The formats that browsers store for a page that asks for 24 bits, against what their sources say. */
 #include "depthprec/depthprec.h"
 #include "named.h"
+#include "printed.h"
 #include "raster/raster.h"
 #include "support.h"
 
@@ -123,6 +124,33 @@ TEST(test_bias) {
         assert_int_equal(row->bias[0] != '\0', row->cuts || row->drops_clamp || row->scale_least > 0);
     }
     assert_null(platform_get(i));
+}
+
+/* Code is in the language of the API's shaders, whatever formats a browser may store; by hand, as those APIs have it.
+ */
+TEST(test_language) {
+    static const struct {
+        const char *camera, *language;
+    } rows[] = {{"--platform chrome-d3d", "wgsl"}, {"--platform firefox-vulkan", "wgsl"}, {"--platform safari", "wgsl"},
+                {"--platform webgl-d3d", "glsl"},  {"--platform webgl-vulkan", "glsl"},   {"--platform d3d11", "hlsl"},
+                {"--platform d3d12", "hlsl"},      {"--platform vulkan", "glsl"},         {"--platform metal", "msl"},
+                {"--preset unity", "hlsl"},        {"--preset unreal", "hlsl"},           {"--preset bevy", "wgsl"},
+                {"--preset three-webgpu", "wgsl"}, {"--preset godot-forward", "glsl"},    {"", "glsl"},
+                {"--platform gl", "glsl"},         {"--preset unity-gl", "hlsl"}};
+    static const char *const parts[] = {"linearize", "projection", "position --fov 60", "encode -F unorm24"};
+    tally t = {.name = "languages of cameras"};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        for (size_t k = 0; k < sizeof parts / sizeof parts[0]; k++) {
+            char line[128];
+            snprintf(line, sizeof line, "code --what %s %s", parts[k], rows[i].camera);
+            char *chosen = output_of(0, line, "");
+            snprintf(line + strlen(line), sizeof line - strlen(line), " --language %s", rows[i].language);
+            char *same = output_of(0, line, "");
+            TALLY(&t, strcmp(chosen, same) == 0, "%s: %.60s", line, chosen);
+            free(chosen);
+            free(same);
+        }
+    tally_end(&t);
 }
 
 TEST(test_rows) {

@@ -121,6 +121,36 @@ TEST(each_number) {
     }
 }
 
+/* The answer above the table is that of the numbers below it. */
+TEST(verdicts) {
+    static const char none[] = "\nNone of the random vertices lies within the range.",
+                      safe[] = "\nEQUAL is safe on these";
+    static const char unsafe[] = "\nEQUAL is not safe";
+    static const struct {
+        const char *line, *says;
+    } rows[] = {
+        {"prepass --against fma -F fp32 -m d3d --vertices box --from-origin 1 --range 10:20 --sample 1000", none},
+        {"prepass --against once -F unorm16 -m d3d --sample 1000 --range 1:1.001", safe},
+        {"prepass --against once,fma -F fp32 -m reversed --sample 1000 --from-origin 1000", unsafe},
+        {"prepass --against fma,once -F fp32 -m reversed --sample 1000 --from-origin 1000", unsafe}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        json_t *root = json_printed(0, "%s", rows[i].line);
+        char *text = output_of(0, rows[i].line, "");
+        double vertices = 0, differ = 0;
+        for (size_t k = 0; k < json_array_size(node_at(root, "setups[0].programs")); k++) {
+            vertices = fmax(vertices, number_at(root, "setups[0].programs[%zu].vertices", k));
+            differ += number_at(root, "setups[0].programs[%zu].differ", k);
+        }
+        assert_ptr_equal(rows[i].says, vertices == 0 ? none : differ == 0 ? safe : unsafe);
+        static const char *const all[] = {none, safe, unsafe};
+        for (size_t k = 0; k < 3; k++)
+            assert_int_equal(strstr(text, all[k]) != NULL, all[k] == rows[i].says);
+        assert_int_equal(strstr(text, "is safe on these vertices if the main pass is moved") != NULL, differ > 0);
+        free(text);
+        json_decref(root);
+    }
+}
+
 /* ---- What else is stored ----------------------------------------------------------------------------------------- */
 
 /* A line, and the cases that it names. */

@@ -49,6 +49,7 @@ static const char *const lines[] = {
     "bias --api gl -F d24 -m gl --units -1 --at 1,10,100",
     "bias --api all --separation 0.02 --at 300",
     "bias --api d3d12,vulkan --separation 0.02 --at 300 -F d24 -m d3d",
+    "bias --api d3d12,vulkan --separation 0.02 --at 300 -F d24,fp32 -m d3d,reversed",
     "bias --preset bevy --api vulkan --units 4 --factor 1 --slope 0.02",
     "bias -F d24 -m d3d --viewport 1920x1080",
     "world --from-origin 100km --separation 1cm --at 10m",

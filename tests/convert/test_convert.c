@@ -382,6 +382,12 @@ static const row rows[] = {
     {"convert unorm12 fp16 unorm12 --write half --saturate", {"unorm12", "fp16", "unorm12"}, "half", 0, true, 0, {0}},
     {"convert unorm12 unorm8 unorm12", {"unorm12", "unorm8", "unorm12"}, "nearest", 0, false, 0, {0}},
     {"convert float4.6 unorm8", {"float4.6", "unorm8"}, "nearest", 0, false, 0, {0}},
+    {"convert unorm8 unorm10", {"unorm8", "unorm10"}, "nearest", 0, false, 0, {0}},
+    {"convert unorm10 fp32 unorm10", {"unorm10", "fp32", "unorm10"}, "nearest", 0, false, 0, {0}},
+    {"convert unorm10 fp32 unorm10 --write cut:2000", {"unorm10", "fp32", "unorm10"}, "cut", 2000, false, 0, {0}},
+    {"convert unorm4 unorm3 unorm4", {"unorm4", "unorm3", "unorm4"}, "nearest", 0, false, 0, {0}},
+    {"convert unorm6 unorm4 unorm6", {"unorm6", "unorm4", "unorm6"}, "nearest", 0, false, 0, {0}},
+    {"convert unorm8 unorm10 --write cut:2000", {"unorm8", "unorm10"}, "cut", 2000, false, 0, {0}},
 };
 
 static void want_codes(values *v, const row *r, const convert_chain *c) {
@@ -418,6 +424,47 @@ static void want_ways(values *v, const convert_chain *c) {
     }
 }
 
+static void check_note(char *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* A note of the page, whose lines may be broken. */
+static void check_note(char *text, const char *format, ...) {
+    char note[256];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(note, sizeof note, format, arguments);
+    va_end(arguments);
+    if (strstr(text, note) == NULL)
+        fail_msg("no '%s' in %s", note, text);
+}
+
+/* What the page says of all codes. */
+static void check_page(const row *r, const convert_chain *c) {
+    const convert_found f = convert_all(c, 0);
+    const int last = c->count - 1;
+    const bool back = strcmp(r->names[0], r->names[last]) == 0;
+    char *text = output_of(0, r->line, ""), beyond[64];
+    for (char *at = text; (at = strstr(at, "\n            ")) != NULL;)
+        memmove(at + 1, at + 13, strlen(at + 13) + 1), *at = ' ';
+    check_note(text, "\n  %s   %llu of %llu %s\n", back ? "changed" : "rounded", (unsigned long long)f.changed,
+               (unsigned long long)f.codes, back ? "codes" : "numbers");
+    if (f.changed > 0)
+        check_note(text, "\n  first     %s%u becomes %u\n", back ? "" : "code ", f.first.code[0], f.first.code[last]);
+    if (f.by > 1)
+        check_note(text, "\n  most      by %u codes, at %u\n", f.by, f.most.code[0]);
+    assert_int_equal(strstr(text, "\n  most ") != NULL, f.by > 1);
+    assert_int_equal(strstr(text, "\n  EQUAL     holds") != NULL, back && f.changed == 0);
+    assert_int_equal(strstr(text, "\n  EQUAL     fails") != NULL, back && f.changed > 0);
+    assert_int_equal(strstr(text, "\n  order     kept;") != NULL, f.swapped == 0);
+    assert_int_equal(strstr(text, "no two codes become one") != NULL, f.merged == 0);
+    if (f.merged > 0)
+        check_note(text, "%llu pair%s of neighbours", (unsigned long long)f.merged, f.merged == 1 ? "" : "s");
+    snprintf(beyond, sizeof beyond, "\n  beyond    %llu number%s no code of %s: %s", (unsigned long long)f.beyond,
+             f.beyond == 1 ? " has" : "s have", r->names[last], r->saturate ? "stored as the last" : "the low bits");
+    assert_int_equal(strstr(text, beyond) != NULL, f.beyond > 0);
+    assert_int_equal(strstr(text, "\n  beyond ") != NULL, f.beyond > 0);
+    free(text);
+}
+
 TEST(each_number) {
     static const char heads[] = "from = /from, through = /through, to = /to, read = /read, write = /write";
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
@@ -436,6 +483,7 @@ TEST(each_number) {
             check_forms(&v, 0, r->line, "codes[]", columns);
         } else {
             check_json(&v, 0, r->line);
+            check_page(r, &c);
             place_add(&one, "", "%s", "");
             check_csv(&v, 0, r->line, columns, &one);
         }

@@ -120,7 +120,8 @@ TEST(pgm_of_others) {
                 {"P5\n# CREATOR: GIMP\n3 2\n255\n", 255, 0},
                 {"P5\n3 # wide\n2\n#\n10000\n", 10000, 10000},
                 {"P5\r3\t2 256\r", 256, 256},
-                {"P5\n3 2\n200\n", 200, 200}};
+                {"P5\n3 2\n200\n", 200, 200},
+                {"P5\n3 2\n1\n", 1, 1}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         const bool wide = rows[i].maxval > 255;
         uint8_t bytes[6];

@@ -89,8 +89,9 @@ static void write_matrix(rng *r, view_case *c) {
     FILE *out = fopen(c->path, "w");
     assert_non_null(out);
     fprintf(out, "# a projection\r\n");
+    const bool by_columns = rng_below(r, 2) == 0;
     for (int i = 0; i < 16; i++)
-        fprintf(out, "%.17g%s", c->m[i], between[rng_below(r, sizeof between / sizeof between[0])]);
+        fprintf(out, "%.17g%s", c->m[by_columns ? 4 * (i % 4) + i / 4 : i], between[rng_below(r, sizeof between / sizeof between[0])]);
     fclose(out);
 }
 

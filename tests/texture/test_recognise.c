@@ -223,6 +223,12 @@ TEST(too_few) {
             s->data.f32[i] = (float)value_of(&f, 4001 + (uint32_t)(i % different) * 13);
         expect(s, "unorm24", different >= DP_RECOGNISE_LEAST, 1);
     }
+    const double bits = -log2(3 * 0x1p-26 * f.code_max); /* that one of [1/8, 1/4) tells: 155 of them are enough */
+    for (int different = 100; different <= 200; different++) {
+        for (int i = 0; i < SAMPLES; i++)
+            s->data.f32[i] = (float)value_of(&f, 2500000 + (uint32_t)(i % different) * 13);
+        expect(s, "unorm24", different * bits > DP_RECOGNISE_BITS, 1);
+    }
     for (int i = 0; i < SAMPLES; i++)
         s->data.f32[i] = i % 2 ? 0 : 1;
     expect(s, "fp16", false, -1);

@@ -174,17 +174,20 @@ static int find_matrix(wanted_code *w) {
     return EXIT_FINE;
 }
 
-/* One camera. */
+/* One camera: set-ups that differ in their formats alone are one where no code of theirs is printed. */
 static int find_setup(wanted_code *w) {
     setups all = {0};
     const int status = setups_make(&w->o->camera, &all);
-    const size_t count = all.count;
-    if (count > 0)
+    size_t differ = 0;
+    if (all.count > 0)
         w->setup = all.items[0];
+    for (size_t i = 1; i < all.count; i++)
+        differ += (part_of(w) & CODES) != 0 || all.items[i].spec.mapping != w->setup.spec.mapping;
+    const size_t count = all.count;
     setups_release(&all);
     if (status != EXIT_FINE)
         return status;
-    if (count > 1)
+    if (differ > 0)
         return option_error("mapping", "and --format must be one each, got %zu set-ups", count);
     return EXIT_FINE;
 }
