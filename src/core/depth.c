@@ -135,11 +135,11 @@ dp_cell dp_cell_of(const dp_setup *setup, uint32_t code) {
         return cell;
     }
     /* From the near plane or a boundary to a boundary or the far plane. Planes lie on the lattice, but for the near
-       plane of the linear and logarithmic mappings, and both where a viewport moves depth. */
+       plane of the linear and logarithmic mappings, and both where a viewport moves depth, of which dp_curve_span()
+       knows one at a time. */
     const int first = code == setup->code_near;
     const int last = code == setup->code_far;
-    const int off_lattice =
-        first && (setup->ranged ? !last : !spec->ortho && dp_mapping_get(spec->mapping)->curve != DP_CURVE_PERSPECTIVE);
+    const int off_lattice = first && !setup->ranged && !spec->ortho && setup->curve != DP_CURVE_PERSPECTIVE;
     const double end = setup->den;
     const dp_point to_near =
         first ? dp_point_make(reversed ? end : 0.0, end) : dp_boundary_below(setup, code + (uint32_t)reversed).point;
@@ -148,10 +148,9 @@ dp_cell dp_cell_of(const dp_setup *setup, uint32_t code) {
     /* An end rounded beyond a plane, or before the other end, belongs on it. */
     cell.lo = first ? spec->znear : fmin(fmax(dp_curve_eye(setup, to_near), spec->znear), spec->zfar);
     cell.hi = last ? spec->zfar : fmin(fmax(dp_curve_eye(setup, to_far), cell.lo), spec->zfar);
-    cell.width = isinf(cell.hi) ? HUGE_VAL
-                 : off_lattice  ? dp_curve_gap(setup, to_far, spec->znear)
-                 : setup->ranged && last
-                     ? (first ? spec->zfar - spec->znear : -dp_curve_gap(setup, to_near, spec->zfar))
-                     : dp_curve_span(setup, to_near, to_far);
+    cell.width = isinf(cell.hi)                   ? HUGE_VAL
+                 : off_lattice                    ? dp_curve_gap(setup, to_far, spec->znear)
+                 : setup->ranged && first && last ? spec->zfar - spec->znear
+                                                  : dp_curve_span(setup, to_near, to_far);
     return cell;
 }

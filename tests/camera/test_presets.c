@@ -377,6 +377,14 @@ TEST(test_cost) {
             const cost x = cost_of(&a, DP_MAPPING_D3D), y = cost_of(&b, DP_MAPPING_D3D);
             assert_true(cost_compare(&x, &y) < 0 && cost_compare(&y, &x) > 0);
         }
+    static const struct {
+        const char *format;
+        double bytes;
+    } whole[] = {{"unorm20", 3}, {"unorm8", 1}, {"unorm9", 2}, {"float5.8", 2}, {"float3.4", 1}, {"unorm24", 4}};
+    for (size_t i = 0; i < sizeof whole / sizeof whole[0]; i++) { /* whole bytes, and four of what APIs have */
+        const dp_format f = format_of(whole[i].format);
+        assert_true((double)cost_of(&f, DP_MAPPING_D3D).bytes == whole[i].bytes);
+    }
     for (size_t i = 0; i < dp_format_count(); i++) /* every named format has its row */
         assert_null(strstr(cost_of(&dp_format_get(i)->format, DP_MAPPING_GL).available, "study"));
 }

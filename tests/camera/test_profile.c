@@ -341,26 +341,33 @@ TEST(test_bias_of_two_said) {
     printed_free(&p);
 }
 
-/* Two GPUs: the least and the greatest r of both, or none where one is not known. */
+/* Two GPUs: the least and the greatest r of both, or none where one is not known; fractions are cut where one of them
+ * cuts. */
 TEST(test_bias_of_two) {
+    static const char cuts[] =
+        ", {\"key\": \"fraction\", \"found\": \"fractions of a constant are cut\", \"sure\": \"sure\"}";
     static const struct {
         size_t a, b;
         double least, most;
-    } two[] = {{0, 1, 1, 2}, {1, 6, 0.5, 2}, {0, 7, 0, 0}, {7, 0, 0, 0}, {0, 2, 0, 0}};
+        bool cut[2];
+    } two[] = {{0, 1, 1, 2, {false, false}}, {1, 6, 0.5, 2, {false, true}}, {0, 7, 0, 0, {true, true}},
+               {7, 0, 0, 0, {false, false}}, {0, 2, 0, 0, {false, false}},  {0, 1, 1, 2, {true, false}},
+               {0, 1, 1, 2, {true, true}}};
     char name[PROFILE_NAME_SIZE], error[PROFILE_ERROR_SIZE];
     dp_format fp32[2];
     assert_int_equal(dp_format_parse("fp32", fp32), 1);
     for (size_t i = 0; i < sizeof two / sizeof two[0]; i++) {
         profile gpus = {.measured = ""};
-        write_bias("bias.json", two[i].a, "");
+        write_bias("bias.json", two[i].a, two[i].cut[0] ? cuts : "");
         assert_true(profile_add(&gpus, scratch_file("bias.json"), "arith", name, error));
         assert_true(profile_add(&gpus, scratch_file("bias.json"), "raster", name, error)); /* the same again */
         assert_string_equal(gpus.measured, "B, driver D");
-        write_bias("bias.json", two[i].b, "");
+        write_bias("bias.json", two[i].b, two[i].cut[1] ? cuts : "");
         assert_true(profile_add(&gpus, scratch_file("bias.json"), "raster", name, error));
         const profile_format *of = profile_biased(&gpus, NULL, bias_api_find("vulkan"), &fp32[0]);
         assert_int_equal(of != NULL, two[i].least > 0);
-        assert_true(of == NULL || (of->least == two[i].least && of->most == two[i].most));
+        assert_true(of == NULL || (of->least == two[i].least && of->most == two[i].most &&
+                                   of->cuts == (two[i].cut[0] || two[i].cut[1])));
     }
 }
 

@@ -231,6 +231,21 @@ TEST(compared) {
     check_says(0, "6554 codes, 6554 to 13107,", "table --depth-range 0:.2,.1:1 -F d16 -m d3d");
     check_says(0, "No two of these ranges share a code", "table --depth-range 0:.1,.2:1 -F d16 -m d3d");
     check_says(0, "unorm16 d3d 1:0", "table --depth-range 1:0,0:1 -F d16 -m d3d");
+    static const struct {
+        const char *ranges, *others;
+    } more[] = {{"0:.5,.1:.6,.2:.7,.3:.8", "2 other pairs of ranges share codes: --json has them."},
+                {"0:.5,.1:.6,.2:.7,.3:.8,.4:.9", "6 other pairs of ranges share codes: --json has them."},
+                {"0:.5,.1:.6,.2:.7,.55:.8", "1 other pair of ranges shares codes: --json has it."},
+                {"0:.5,.1:.6,.2:.7", NULL},
+                {"0:.5,.1:.6,.2:.7,.65:.8", NULL}};
+    for (size_t i = 0; i < sizeof more / sizeof more[0]; i++) {
+        json_t *root = json_printed(0, "table --depth-range %s -F d16 -m d3d", more[i].ranges);
+        const size_t pairs = json_array_size(node_at(root, "shared"));
+        assert_int_equal(pairs, more[i].others != NULL ? 4 + atoi(more[i].others) : 3 + (int)(i == 4));
+        check_says(0, more[i].others != NULL ? more[i].others : "!other pair", "table --depth-range %s -F d16 -m d3d",
+                   more[i].ranges);
+        json_decref(root);
+    }
     json_t *both = json_printed(0, "table --depth-range 0:.1,.1:1 -F d16 -m d3d,reversed --at 5");
     for (int i = 0; i < 4; i++) {
         json_t *alone = json_printed(0, "table --depth-range %s -F d16 -m %s --at 5", i % 2 == 0 ? "0:.1" : ".1:1",

@@ -141,6 +141,26 @@ TEST(test_refused) {
     }
 }
 
+/* Of the entries that are zeros a perspective may move its centre and tilt its planes, an orthographic projection may
+ * move its centre; any other is refused by itself, and so is one that is a zero where none may be. */
+TEST(test_each_entry) {
+    for (int ortho = 0; ortho < 2; ortho++) {
+        const double good[ENTRIES] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1.5, -1.5, 0, 0, !ortho, ortho};
+        for (int i = 0; i < ENTRIES; i++) {
+            const bool may = ortho ? i == 3 || i == 7 : i == 2 || i == 6 || i == 8 || i == 9;
+            const bool must = good[i] != 0 && !(ortho && i == 11);
+            double m[ENTRIES];
+            dp_projection p;
+            dp_matrix_fault fault = {NULL, {0}};
+            memcpy(m, good, sizeof m);
+            m[i] = good[i] == 0 ? 0.25 : 0;
+            const dp_status status = dp_projection_init(&p, m, 0, 0, &fault);
+            if ((status == DP_OK) != (good[i] == 0 ? may : !must) || (status != DP_OK && fault.rule == NULL))
+                fail_msg("%s, entry %d: %s", ortho ? "orthographic" : "perspective", i, dp_status_text(status));
+        }
+    }
+}
+
 /* How wide a picture may be, and how far off its axis: on either axis, just within and just beyond. */
 TEST(test_edges) {
     static const struct {

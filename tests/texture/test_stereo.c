@@ -89,7 +89,8 @@ static double number_in(const json_t *object, const char *name) {
     return json_number_value(found);
 }
 
-static void check_statistics(const stereo_kind *k, const command *base, size_t holes) {
+/* `levels`: from the least sample to the greatest, both of them. */
+static void check_statistics(const stereo_kind *k, const command *base, size_t holes, double levels) {
     json_t *root = truth_statistics(base);
     const json_t *lattice = json_object_get(root, "lattice"), *gaps = json_object_get(lattice, "gaps");
     assert_true(number_in(root, "invalid") == (double)holes);
@@ -99,6 +100,8 @@ static void check_statistics(const stereo_kind *k, const command *base, size_t h
                     k->constant, 1e-14);
     assert_relative(number_in(json_object_get(root, "stereo"), "step"), k->step, 1e-15);
     assert_string_equal(json_string_value(json_object_get(lattice, "name")), k->grid > 0 ? "inverse" : "file");
+    if (k->grid > 0)
+        assert_true(number_in(lattice, "levels") == levels);
     for (size_t i = 0; k->grid > 0 && i < 4; i++) {
         static const double at[] = {1, 2, 5, 10};
         const double pixels = fabs(k->step) * k->grid, behind = k->constant / at[i] - pixels;
@@ -172,7 +175,12 @@ static double one_picture(tally *t, rng *r, const stereo_kind *k) {
               k->name, z[i], (double)map[i], most);
         used = fmax(used, off / (double)map[i]);
     }
-    check_statistics(k, &base, holes);
+    double least = INFINITY, most = -INFINITY;
+    for (int i = 0; i < PIXELS; i++) {
+        least = isnan(z[i]) ? least : fmin(least, samples[i]);
+        most = isnan(z[i]) ? most : fmax(most, samples[i]);
+    }
+    check_statistics(k, &base, holes, (most - least) / k->grid + 1);
     for (int i = 0; i < 3; i++)
         check_pixel(k, &base, (int)rng_below(r, PIXELS), z, samples, roundings[said]);
     return used;

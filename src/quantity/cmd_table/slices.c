@@ -101,7 +101,9 @@ void slices_say(page *p, const camera_asked *c, const setups *all) {
         if (count < PAIRS_SAID)
             say_pair(p, &pair);
     if (count > PAIRS_SAID)
-        page_text(p, "%zu other pairs of ranges share codes: --json has them.", count - PAIRS_SAID);
+        page_text(p, "%zu other pair%s codes: --json has %s.", count - PAIRS_SAID,
+                  count - PAIRS_SAID == 1 ? " of ranges shares" : "s of ranges share",
+                  count - PAIRS_SAID == 1 ? "it" : "them");
     page_text(p, count == 0 ? "No two of these ranges share a code."
                             : "There the ranges do not part two layers: depth or the order of drawing decides.");
 }
