@@ -50,6 +50,7 @@ static const refusal refusals[] = {
     {"table --range 1:5000", "range", 2},
     {"table --range 5:1", "range", 2},
     {"table --at 1:2:sqrt:5", "at", 2},
+    {"table --at 1:2:lin:1000001", "at", 2},
     {"table --log-c 0 -m log", "log-c", 2},
     {"table --ortho -m log", "ortho", 2},
     {"table --ortho -n -1e-13 -f 10", "near", 2},
@@ -415,7 +416,8 @@ static const refusal refusals[] = {
     {"code --what encode -F fp32", "format", 2},
     {"code --what projection -m log", "mapping", 2},
     {"code -m d3d,gl", "mapping", 2},
-    {"code -F d16,d24", "mapping", 2},
+    {"code -F d16,d24", "format", 2},
+    {"code --what encode -F d16,d24", "mapping", 2},
     {"convert d24", "", 2},
     {"convert d24 nothing", "", 2},
     {"convert d24 rg", "", 2},
@@ -637,6 +639,15 @@ TEST(test_refusals) {
     tally_end(&t);
 }
 
+/* One letter in four may be wrong, and one more: what is farther from each name is another word. */
+TEST(test_too_far) {
+    check_says(2, "did you mean 'vulkan'", "bias --api vlkn");
+    check_says(2, "!did you mean", "bias --api vln");
+    check_says(2, "did you mean 'webgpu'", "bias --api webg");
+    check_says(2, "did you mean 'list'", "lst");
+    check_says(2, "!did you mean", "xyz");
+}
+
 /* Planes that nearly meet are told with the digits in which they differ. */
 TEST(test_digits_of_planes) {
     check_says(2, "got near 0.30000000000000004, far 0.3\n", "table -n 0.30000000000000004 -f 0.3");
@@ -681,6 +692,8 @@ TEST(limits_between_options) {
         {"scene " STREET " -f 500 --within", "500", "500.1", "within"},
         {"scene " STREET " -n 0.5 --within", "0.5", "0.49", "within"},
         {"shadow --rasterize --kernel", "32", "33", "rasterize"},
+        {"table --at", "1:10:lin:2", "1:10:lin:1", "at"},
+        {"table --at", "1:10:log:2", "1:10:log:1", "at"},
     };
     tally t = {.name = "limits"};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
