@@ -244,18 +244,26 @@ TEST(a_pixel_that_fights_does) {
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */
 
-/* The frame of the pixel that is named: 16 black pixels, within 3 x 3 yellow ones. */
+/* The frame of the pixel that is named: 16 black pixels, within 3 x 3 yellow ones. It is the first from the lower left,
+ * by rows: none is below it, none in its row to the left. */
 static void check_picture(const char *path) {
     image picture;
     image_error error;
     uint64_t black = 0, yellow = 0;
+    size_t frame = 0, lowest = 0;
     assert_true(image_read(path, &picture, &error));
     assert_true(picture.width % 5 == 0 && picture.height % 5 == 0 && picture.width >= 10);
     const uint8_t *at = picture.data;
     for (size_t i = 0; i < (size_t)picture.width * picture.height; i++, at += picture.channels) {
-        black += at[0] == 0 && at[1] == 0 && at[2] == 0;
-        yellow += at[0] == 0xF0 && at[1] == 0xE4 && at[2] == 0x42;
+        const bool is_black = at[0] == 0 && at[1] == 0 && at[2] == 0;
+        const bool is_yellow = at[0] == 0xF0 && at[1] == 0xE4 && at[2] == 0x42;
+        const size_t place = i / picture.width * picture.width + (picture.width - 1 - i % picture.width);
+        frame = is_black && place > frame ? place : frame;
+        lowest = (is_black || is_yellow) && place > lowest ? place : lowest;
+        black += is_black;
+        yellow += is_yellow;
     }
+    assert_true(frame == lowest);
     assert_int_equal(black, 16);
     assert_int_equal((yellow + black) % 25, 0);
     image_free(&picture);

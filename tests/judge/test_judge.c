@@ -642,6 +642,65 @@ TEST(test_exact_references) {
             assert_relative(judge_value(&ndc, p.pairs[k].in), p.pairs[k].out, 1e-7);
 }
 
+/* What each output is of an eye depth, in long double; NaN where a camera has no such thing. */
+static long double output_at(const char *name, const dp_setup *s, long double z) {
+    const long double n = (long double)s->spec.znear, f = (long double)s->spec.zfar;
+    const bool log = s->curve == DP_CURVE_LOG;
+    const long double matrix = isinf(s->spec.zfar) ? (z - n) / z : f * (z - n) / ((f - n) * z);
+    const long double d = log ? (long double)NAN : s->reversed ? 1 - matrix : matrix;
+    const struct {
+        const char *name;
+        long double value;
+    } all[] = {{"eye depth", z},
+               {"minus eye depth", -z},
+               {"eye depth over far", z / f},
+               {"the way from near to far", (z - n) / (f - n)},
+               {"reciprocal of eye depth", 1 / z},
+               {"window depth", d},
+               {"1 minus window depth", 1 - d},
+               {"window depth without the logarithm", log ? matrix : (long double)NAN},
+               {"NDC depth", dp_mapping_get(s->spec.mapping)->ndc_signed ? 2 * d - 1 : (long double)NAN},
+               {"code", rintl(d * 65535)}};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        if (strcmp(all[i].name, name) == 0)
+            return all[i].value;
+    fail_msg("no output is called %s", name);
+    return 0;
+}
+
+TEST(every_output) {
+    static const dp_mapping mappings[] = {DP_MAPPING_D3D,         DP_MAPPING_GL,  DP_MAPPING_REVERSED,
+                                          DP_MAPPING_GL_REVERSED, DP_MAPPING_LOG, DP_MAPPING_CESIUM};
+    tally t = {.name = "outputs"};
+    rng r = rng_make("outputs");
+    for (uint64_t i = test_cases(100, 1000, 20000); i > 0; i--) {
+        dp_spec spec = dp_spec_default();
+        dp_setup s;
+        dp_format format[2];
+        spec.mapping = mappings[rng_below(&r, sizeof mappings / sizeof mappings[0])];
+        spec.znear = rng_log(&r, 0.01, 10);
+        const bool log = spec.mapping == DP_MAPPING_LOG || spec.mapping == DP_MAPPING_CESIUM;
+        spec.zfar = !log && rng_below(&r, 4) == 0 ? (double)INFINITY : spec.znear * rng_log(&r, 3, 1e4);
+        assert_int_equal(dp_format_parse("unorm16", format), 1);
+        spec.format = format[0];
+        assert_int_equal(dp_setup_init(&s, &spec), DP_OK);
+        const double z = spec.znear * pow(fmin(spec.zfar / spec.znear, 1e5), rng_unit(&r));
+        for (size_t k = 0; judge_output_get(k) != NULL; k++) {
+            const judge_candidate c = {
+                .setup = s, .input = judge_input_get(JUDGE_EYE), .output = judge_output_get(k), .factor = 1};
+            const long double is = output_at(c.output->name, &s, (long double)z);
+            const double got = judge_value(&c, z);
+            const bool code = strcmp(c.output->name, "code") == 0; /* another one beside a tie */
+            TALLY(&t,
+                  isnan(is) || (isnan(got) && !isfinite((double)is)) || (is == 0 && fabs(got) < 1e-9) ||
+                      fabsl(got - is) <= (code ? 1 : 1e-9L * (1 + fabsl(is))) || (isinf(spec.zfar) && !isfinite(got)),
+                  "%s, %s, near %g, far %g, z %g: %g, is %Lg", c.output->name, dp_mapping_get(spec.mapping)->name,
+                  spec.znear, spec.zfar, z, got, is);
+        }
+    }
+    tally_end(&t);
+}
+
 /* A byte or two in which nothing is to be seen tell nothing, a wrong formula least of all. */
 TEST(test_nearly_constant) {
     const dp_setup setup = camera(0.1, 1000, DP_MAPPING_D3D);
