@@ -374,7 +374,6 @@ TEST(test_rows) {
          "safari"},
         {"bias", "api", AT(bias, bias.api), "Vulkan", "vulkan", offsetof(bias_api, name), "wegbpu", "webgpu"},
         {"bias", "api", AT(bias, bias.api), "all", NULL, 0, "metall", "metal"},
-        {"bias", "api", AT(bias, bias.api), "vk", "vulkan", offsetof(bias_api, name), "vlkn", "vulkan"},
         {"bias", "api", AT(bias, bias.api), "direct3d12", "d3d12", offsetof(bias_api, name), "d3d14",
          "d3d11' or 'd3d12"},
         {"bias", "api", AT(bias, bias.api), "gl,d3d12", NULL, 0, "gl,d3d14", "d3d11"},
@@ -399,7 +398,6 @@ TEST(test_rows) {
         {"texture", "product", AT(texture, image.effect), "effect:Fog", "fog", offsetof(effect_row, name),
          "effect:edeg", "edge"},
         {"code", "language", AT(code, language), "HLSL", "hlsl", offsetof(code_language, name), "glsk", "glsl"},
-        {"code", "language", AT(code, language), "C", "c", offsetof(code_language, name), "gsl", "glsl"},
         {"texture", "packing", AT(texture, image.packing), "rgb24", "rgb24", offsetof(packing, name), "rgb42", "rgb24"},
     };
     tally t = {.name = "rows"};

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the FPCores in a folder mean: the specification is the eye depth of the mapping, and the operations, each rounded
-as the core says, stay within the bound that its comment names. By rational numbers.  fpcore.py FOLDER"""
+"""What the FPCores in a folder mean: the specification is the eye depth of the mapping, and the operations, each
+rounded as the core says, stay within the bound that its comment names. By rational numbers.  fpcore.py FOLDER"""
 
 import operator
 import pathlib

@@ -91,7 +91,8 @@ static void write_matrix(rng *r, view_case *c) {
     fprintf(out, "# a projection\r\n");
     const bool by_columns = rng_below(r, 2) == 0;
     for (int i = 0; i < 16; i++)
-        fprintf(out, "%.17g%s", c->m[by_columns ? 4 * (i % 4) + i / 4 : i], between[rng_below(r, sizeof between / sizeof between[0])]);
+        fprintf(out, "%.17g%s", c->m[by_columns ? 4 * (i % 4) + i / 4 : i],
+                between[rng_below(r, sizeof between / sizeof between[0])]);
     fclose(out);
 }
 
