@@ -140,7 +140,6 @@ TEST(staircases_need_no_options) {
     check_says(2, "must make at most 8 set-ups", "plot staircase -F unorm2,unorm3,unorm4 -m d3d,gl,reversed --json");
 }
 
-/* The share of what has no end would be 0 everywhere. */
 /* By default from 1 to 20, where a picture shows what the curves are; a preset has planes of its own. */
 TEST(linear01_shows_a_short_range) {
     static const struct {
@@ -179,6 +178,38 @@ TEST(linear01_of_several_far_planes) {
     }
 }
 
+/* Each curve is what it is called, up to its own far plane. */
+TEST(linear01_is_what_it_says) {
+    static const struct {
+        const char *mapping;
+        bool reversed;
+    } mappings[] = {{"d3d", false}, {"reversed", true}, {"gl", false}};
+    static const double fars[] = {10, 20};
+    for (size_t i = 0; i < sizeof mappings / sizeof mappings[0]; i++) {
+        json_t *root = json_printed(0, "plot linear01 -n 1 -f 10,20 -m %s --json", mappings[i].mapping);
+        const json_t *all = node_at(root, "panels[0].series"), *series, *point;
+        size_t k, at, seen = 0;
+        json_array_foreach(all, k, series) {
+            const char *name = text_at(series, "name"), *of = strstr(name, ": ");
+            const double n = 1, f = atof(name + 4);
+            assert_true(of != NULL && strncmp(name, "far ", 4) == 0 && (f == fars[0] || f == fars[1]));
+            const bool window = strncmp(of + 2, "window depth, ", 14) == 0;
+            const bool from_near = strcmp(of + 2, "Linear01DepthFromNear") == 0;
+            assert_true(window ? strcmp(of + 16, mappings[i].mapping) == 0
+                               : from_near || strcmp(of + 2, "Linear01Depth, z/far") == 0);
+            json_array_foreach(json_object_get(series, "points"), at, point) {
+                const double z = number_at(point, "z"), d = f * (z - n) / ((f - n) * z);
+                const double is = window ? mappings[i].reversed ? 1 - d : d : from_near ? (z - n) / (f - n) : z / f;
+                assert_true(fabs(number_at(point, "share") - is) < 1e-12);
+                seen += z == f;
+            }
+        }
+        assert_true(json_array_size(all) == 6 && seen == 6);
+        json_decref(root);
+    }
+}
+
+/* The share of what has no end would be 0 everywhere. */
 TEST(linear01_has_a_finite_far_plane) {
     static const refused_row rows[] = {{"-f inf -o /dev/null --type svg", "must be finite in the figure linear01", 2},
                                        {"-f 100,inf --json", "must be finite in the figure linear01", 2},
