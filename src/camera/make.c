@@ -207,17 +207,18 @@ static bool take_arith(camera_said *c, camera_fault *fault) {
     return true;
 }
 
-bool camera_profile(camera_said *c, const char *path, camera_key key, char name[PROFILE_NAME_SIZE],
-                    char error[PROFILE_ERROR_SIZE]) {
+int camera_profile(camera_said *c, const char *path, camera_key key, char name[PROFILE_NAME_SIZE],
+                   char error[PROFILE_ERROR_SIZE]) {
     char arith[PROFILE_NAME_SIZE], none[PROFILE_ERROR_SIZE];
-    if (!profile_add(&c->gpu, path, camera_keys[key], name, error))
-        return false;
+    const int status = profile_add(&c->gpu, path, camera_keys[key], name, error);
+    if (status != 0)
+        return status;
     if (key == CAMERA_RASTER) {
         c->raster_profiled = true;
         c->has_raster_arith =
-            profile_add(&c->gpu, path, "arith", arith, none) && dp_arith_parse(arith, &c->raster_arith) == DP_OK;
+            profile_add(&c->gpu, path, "arith", arith, none) == 0 && dp_arith_parse(arith, &c->raster_arith) == DP_OK;
     }
-    return true;
+    return 0;
 }
 
 /* A colour target's depth is compared with a buffer's, and stands for none. */

@@ -103,10 +103,10 @@ bool camera_make(camera_said *c, const unit_row *unit, camera_fault *fault);
 
 /**
  * Takes the profile of a GPU in place of the name of an arithmetic or a rasterizer, whose arithmetic comes with it.
- * @return true and the name, of which nothing but its length is known; or as profile_add()
+ * @return 0 and the name, of which nothing but its length is known; or as profile_add()
  */
-bool camera_profile(camera_said *c, const char *path, camera_key key, char name[PROFILE_NAME_SIZE],
-                    char error[PROFILE_ERROR_SIZE]);
+int camera_profile(camera_said *c, const char *path, camera_key key, char name[PROFILE_NAME_SIZE],
+                   char error[PROFILE_ERROR_SIZE]);
 
 /**
  * The vertical field of view in so many pixels: that of the horizontal one where it was said, else a single preset's

@@ -4,7 +4,7 @@
  *
  *     profile gpu = {.measured = ""};
  *     char name[PROFILE_NAME_SIZE], error[PROFILE_ERROR_SIZE];
- *     if (profile_is_file(text) && !profile_add(&gpu, text, "raster", name, error))
+ *     if (profile_is_file(text) && profile_add(&gpu, text, "raster", name, error) != 0)
  *         ...                                      // a sentence that names the file
  */
 #ifndef CAMERA_PROFILE_H
@@ -48,10 +48,10 @@ bool profile_is_file(const char *text);
  * Reads a profile.
  * @param key   of the row that is asked for: "arith" or "raster"
  * @param name  receives the row's name, of which nothing but its length is known
- * @return false with a sentence in `error`, and *to is as it was
+ * @return 0; else, with a sentence in `error` and *to as it was, a number of errno where the file cannot be read, or -1
  */
-bool profile_add(profile *to, const char *path, const char *key, char name[PROFILE_NAME_SIZE],
-                 char error[PROFILE_ERROR_SIZE]);
+int profile_add(profile *to, const char *path, const char *key, char name[PROFILE_NAME_SIZE],
+                char error[PROFILE_ERROR_SIZE]);
 
 /** Whether the GPUs store depth in that format; true without a profile. */
 bool profile_stores(const profile *p, const dp_format *format);

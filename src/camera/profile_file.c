@@ -141,18 +141,20 @@ static bool add_row(profile *to, const char *path, const json_t *root, const cha
     return true;
 }
 
-bool profile_add(profile *to, const char *path, const char *key, char name[PROFILE_NAME_SIZE],
-                 char error[PROFILE_ERROR_SIZE]) {
+int profile_add(profile *to, const char *path, const char *key, char name[PROFILE_NAME_SIZE],
+                char error[PROFILE_ERROR_SIZE]) {
     json_error_t why;
+    errno = 0;
     FILE *in = input_open(path);
     json_t *root = in != NULL ? json_loadf(in, 0, &why) : NULL;
-    const char *reason = in != NULL ? why.text : strerror(errno);
+    const int number = in == NULL || ferror(in) ? errno : 0;
+    const char *reason = number == 0 ? why.text : strerror(number);
     input_close(in);
     if (root == NULL) {
         snprintf(error, PROFILE_ERROR_SIZE, "'%s' cannot be read: %s", path, reason);
-        return false;
+        return number != 0 ? number : -1;
     }
     const bool good = add_row(to, path, root, key, name, error);
     json_decref(root);
-    return good;
+    return good ? 0 : -1;
 }

@@ -105,13 +105,14 @@ static bool take_line(reader *r, const char *text) {
 
 static int read_text(const char *path, reader *r) {
     char line[LINE_SIZE];
+    errno = 0;
     FILE *in = input_open(path);
     if (in == NULL)
         return errno;
     bool fine = true;
     while (fine && fgets(line, sizeof line, in) != NULL)
         fine = take_line(r, line);
-    const int status = !fine ? -1 : ferror(in) ? EIO : 0;
+    const int status = !fine ? -1 : ferror(in) ? errno : 0;
     input_close(in);
     return status;
 }

@@ -99,7 +99,7 @@ const char *reader_path(const reader *r, const char *name, char out[READER_PATH_
 
 bool reader_profile(reader *r, const setting *s, camera_key key, camera_said *c, char name[PROFILE_NAME_SIZE]) {
     char path[READER_PATH_SIZE], error[PROFILE_ERROR_SIZE];
-    return camera_profile(c, reader_path(r, s->string, path), key, name, error) ||
+    return camera_profile(c, reader_path(r, s->string, path), key, name, error) == 0 ||
            reader_fail(r, s, "%s: %s", s->name, error);
 }
 

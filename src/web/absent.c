@@ -239,9 +239,9 @@ STUB(int, parse_arith, (asked_line * line, const option_row *row, const char *va
 STUB(int, parse_raster, (asked_line * line, const option_row *row, const char *value, void *group),
      parse_row(line, row, value, group))
 STUB(bool, profile_is_file, (const char *text), false)
-STUB(bool, profile_add,
+STUB(int, profile_add,
      (profile * to, const char *path, const char *key, char name[PROFILE_NAME_SIZE], char error[PROFILE_ERROR_SIZE]),
-     false)
+     -1)
 
 /* ---- Of commands that are not here ------------------------------------------------------------------------------- */
 

@@ -359,11 +359,11 @@ TEST(test_bias_of_two) {
     for (size_t i = 0; i < sizeof two / sizeof two[0]; i++) {
         profile gpus = {.measured = ""};
         write_bias("bias.json", two[i].a, two[i].cut[0] ? cuts : "");
-        assert_true(profile_add(&gpus, scratch_file("bias.json"), "arith", name, error));
-        assert_true(profile_add(&gpus, scratch_file("bias.json"), "raster", name, error)); /* the same again */
+        assert_int_equal(profile_add(&gpus, scratch_file("bias.json"), "arith", name, error), 0);
+        assert_int_equal(profile_add(&gpus, scratch_file("bias.json"), "raster", name, error), 0); /* the same again */
         assert_string_equal(gpus.measured, "B, driver D");
         write_bias("bias.json", two[i].b, two[i].cut[1] ? cuts : "");
-        assert_true(profile_add(&gpus, scratch_file("bias.json"), "raster", name, error));
+        assert_int_equal(profile_add(&gpus, scratch_file("bias.json"), "raster", name, error), 0);
         const profile_format *of = profile_biased(&gpus, NULL, bias_api_find("vulkan"), &fp32[0]);
         assert_int_equal(of != NULL, two[i].least > 0);
         assert_true(of == NULL || (of->least == two[i].least && of->most == two[i].most &&
@@ -388,7 +388,7 @@ TEST(test_bias_of_tree) {
         profile gpu = {.measured = ""};
         const bias_api *api = bias_api_find(drivers[i].api);
         snprintf(path, sizeof path, "tests/profiles/%s.json", drivers[i].driver);
-        assert_true(profile_add(&gpu, path, "raster", name, error));
+        assert_int_equal(profile_add(&gpu, path, "raster", name, error), 0);
         assert_string_equal(name, drivers[i].driver);
         assert_true(profile_biased(&gpu, NULL, api, &fp32[0])->least == drivers[i].least32);
         assert_true(profile_biased(&gpu, NULL, api, &unorm16[0])->least == drivers[i].codes16);

@@ -494,7 +494,7 @@ static const refusal refusals[] = {
     {"table --at 5:1:lin:3", "at", 2},
     {"table --at 0:5:log:3", "at", 2},
     {"table --at 1:5:codes", "at", 2},
-    {"table --at @/nonexistent", "at", 2},
+    {"table --at @/nonexistent", "at", 3},
     {"table --at @/dev/null", "at", 2},
     {"table --nosuch", "", 2},
     {"table -Q", "", 2},
@@ -637,6 +637,39 @@ TEST(test_refusals) {
     for (size_t i = 0; i < sizeof refusals / sizeof refusals[0]; i++)
         check_refusal(&t, refusals[i].arguments, refusals[i].option, refusals[i].status);
     tally_end(&t);
+}
+
+/* A file that cannot be read is told by its name and the system's reason, whichever way it is asked for. */
+TEST(test_unreadable) {
+    static const char *const lines[] = {
+        "texture %s",
+        "texture %s --product eye -o none/x.pfm",
+        "check %s",
+        "scene %s",
+        "scene " STREET " --path %s",
+        "judge --pairs %s",
+        "judge %s:f",
+        "methods linearize --mine %s:f",
+        "table --at @%s",
+        "texture --synthetic plane --matrix %s",
+        "world --matrix %s",
+        "table --arith ./%s",
+        "bias --raster ./%s",
+        "plot fight --raster ./%s -o /dev/null --type svg",
+    };
+    static const struct {
+        const char *path, *why;
+    } files[] = {{"none.json", "No such file or directory"}, {"src/cli", "Is a directory"}};
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
+        for (size_t k = 0; k < sizeof files / sizeof files[0]; k++) {
+            char line[256];
+            snprintf(line, sizeof line, lines[i], files[k].path);
+            printed p = print_of("%s", line);
+            if (p.status != 3 || strstr(p.errors, files[k].path) == NULL || strstr(p.errors, files[k].why) == NULL ||
+                strchr(p.errors, '\n') != p.errors + strlen(p.errors) - 1 || p.out[0] != '\0')
+                fail_msg("%s: exit status %d, %s", line, p.status, p.errors);
+            printed_free(&p);
+        }
 }
 
 /* One letter in four may be wrong, and one more: what is farther from each name is another word. */

@@ -125,10 +125,8 @@ static int parse_matrix(asked_line *line, const option_row *row, const char *val
     camera_asked *c = group;
     char error[MATRIX_ERROR_SIZE];
     const int status = *value != '\0' ? camera_matrix_read(&c->matrix, value, error) : ENOENT;
-    if (status > 0) {
-        option_refuse(row, "%s: %s", value, strerror(status));
-        return EXIT_IO;
-    }
+    if (status > 0)
+        return option_unreadable(row, value, status);
     if (status < 0)
         return option_refuse(row, "%s", error);
     return c->matrix.count == MATRIX_ENTRIES || option_used(line->command, ~0u, option_find(line->command, "fov")).row

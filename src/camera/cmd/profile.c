@@ -10,8 +10,9 @@ static int parse_profile(asked_line *line, const option_row *row, const char *va
     char name[PROFILE_NAME_SIZE], error[PROFILE_ERROR_SIZE];
     if (names_find(row->names, value, NULL, NULL) || !profile_is_file(value))
         return parse(line, row, value, group);
-    if (!camera_profile(&c->said, value, key, name, error))
-        return option_refuse(row, "%s", error);
+    const int status = camera_profile(&c->said, value, key, name, error);
+    if (status != 0)
+        return status > 0 ? option_unreadable(row, value, status) : option_refuse(row, "%s", error);
     if (!names_find(row->names, name, NULL, NULL))
         return option_refuse(row, "'%s' names what is not known here, '%.40s'", value, name);
     return parse(line, row, name, group);

@@ -59,3 +59,8 @@ int option_refuse(const option_row *row, const char *format, ...) {
     va_end(arguments);
     return status;
 }
+
+int option_unreadable(const option_row *row, const char *path, int number) {
+    option_refuse(row, "%s: %s", path, strerror(number));
+    return EXIT_IO;
+}
