@@ -308,6 +308,20 @@ TEST(one_answer) {
 }
 
 /* What the list of interfaces says of one unit of a 24-bit target is what a bias is computed with. */
+/* What is nearer has a smaller window depth, or in a reversed one a greater. */
+TEST(nearer_by_its_sign) {
+    static const struct {
+        const char *mapping, *sign, *says;
+    } rows[] = {{"d3d", "-", "a negative bias brings a layer nearer"},
+                {"gl", "-", "a negative bias brings a layer nearer"},
+                {"d3d", "", "a negative bias brings a layer nearer"},
+                {"reversed", "", "a positive bias brings a layer nearer"},
+                {"gl-reversed", "-", "a positive bias brings a layer nearer"}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        check_says(0, rows[i].says, "bias --api d3d11 --units %s2 -F fp32 --at 10 -m %s", rows[i].sign,
+                   rows[i].mapping);
+}
+
 TEST(units_as_listed) {
     static const struct {
         const char *rule;

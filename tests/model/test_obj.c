@@ -72,6 +72,30 @@ TEST(obj_faces) {
     }
 }
 
+/* The box is that of the corners, wherever it lies; a vertex of no face is not in it. */
+TEST(obj_box) {
+    static const char corners[] = "v %g %g %g\nv %g %g %g\nv %g %g %g\nv 99 99 99\nv -99 -99 -99\nf 1 2 3\n";
+    static const double x[3][3] = {{1, 2, 3}, {4, 7, 3.5}, {2, 5, 9}};
+    for (int sign = 0; sign < 8; sign++) {
+        double s[3];
+        text t = {""};
+        model m;
+        for (int k = 0; k < 3; k++)
+            s[k] = sign >> k & 1 ? -1 : 1;
+        add(&t, corners, s[0] * x[0][0], s[1] * x[0][1], s[2] * x[0][2], s[0] * x[1][0], s[1] * x[1][1], s[2] * x[1][2],
+            s[0] * x[2][0], s[1] * x[2][1], s[2] * x[2][2]);
+        must_read(t.at, true, &m);
+        const model_box box = model_box_of(&m);
+        static const double least[] = {1, 2, 3}, most[] = {4, 7, 9};
+        for (int k = 0; k < 3; k++) {
+            assert_true((double)box.lo[k] == (s[k] > 0 ? least[k] : -most[k]));
+            assert_true((double)box.hi[k] == (s[k] > 0 ? most[k] : -least[k]));
+        }
+        assert_true(fabs(model_box_diagonal(&box) - sqrt(9 + 25 + 36)) < 1e-12);
+        model_free(&m);
+    }
+}
+
 TEST(obj_numbers) {
     model m;
     must_read("v 0.1 -2.5e-3 1e22\nv 0 0 0\nv 16777217 4.9e-324 -0\nf 1 2 3", true, &m);
