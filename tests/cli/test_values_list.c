@@ -472,6 +472,45 @@ static void check_completed(const char *shell, const option_row *row, const char
         fail_msg("%s: no '%s%s'", shell, begins, words);
 }
 
+/* Without a topic all topics are listed, in each form. */
+TEST(topics_alone) {
+    json_t *root = json_printed(0, "list");
+    const json_t *items = node_at(root, "items");
+    printed text = print_of("list"), csv = print_of("list --csv");
+    const char *at = strchr(csv.out, '\n');
+    for (size_t i = 0; i < json_array_size(items); i++) {
+        char begins[64], line[64];
+        snprintf(begins, sizeof begins, "\n%s,", text_at(items, "[%zu].name", i));
+        snprintf(line, sizeof line, "\n  %s ", text_at(items, "[%zu].name", i));
+        if (at == NULL || strncmp(at, begins, strlen(begins)) != 0 || strstr(text.out, line) == NULL)
+            fail_msg("%s is missing", begins + 1);
+        at = strchr(at + 1, '\n');
+    }
+    assert_true(json_array_size(items) > 30 && at != NULL && at[1] == '\0');
+    printed_free(&text);
+    printed_free(&csv);
+    json_decref(root);
+}
+
+/* Words are asked for however they are put together. */
+TEST(words_apart) {
+    static const char *const words[][5] = {
+        {"reversed z", "reversed-z", "reversed_z", "ReversedZ", NULL},
+        {"z fighting", "z-fighting", "Z_fighting", "zfighting", NULL},
+        {"polygon offset", "polygon-offset", "polygon_offset", "PolygonOffset", NULL}};
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
+        printed first = print_of("help '%s'", words[i][0]);
+        assert_true(first.status == 0 && strlen(first.out) > 80);
+        for (size_t k = 1; words[i][k] != NULL; k++) {
+            printed p = print_of("help %s", words[i][k]);
+            if (p.status != 0 || strcmp(p.out, first.out) != 0)
+                fail_msg("help %s: %s%s", words[i][k], p.out, p.errors);
+            printed_free(&p);
+        }
+        printed_free(&first);
+    }
+}
+
 /* A link is for the figures that the page's own list has, and for no other; but for its staircase, which is another. */
 TEST(figures_of_the_page) {
     char *script = text_of_file("src/web/state.js"), *from = strstr(script, "export const FIGURES = {");
