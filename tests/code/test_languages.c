@@ -974,3 +974,17 @@ TEST(digits_are_the_fewest_that_read_back) {
     }
     tally_end(&t);
 }
+
+/* The numbers that the comment names are those that the language promises. */
+TEST(rules_are_what_is_promised) {
+    for (size_t p = 0; p < PROMISES; p++) {
+        char said[96], rules[CODE_RULES_SIZE];
+        const promise *l = &promises[p];
+        snprintf(said, sizeof said,
+                 l->sums < 1         ? "every operation to nearest"
+                 : l->quotients == 1 ? "every operation within 1 ulp"
+                                     : "sums and products within 1 ulp, quotients within %g",
+                 l->quotients);
+        assert_string_equal(code_language_rules(code_language_get(p), rules), said);
+    }
+}
