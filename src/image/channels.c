@@ -16,7 +16,7 @@ static bool fail(image_error *error, const char *format, ...) __attribute__((for
 
 static bool fail(image_error *error, const char *format, ...) {
     va_list list;
-    error->unreadable = false;
+    error->unreadable = 0;
     va_start(list, format);
     vsnprintf(error->text, sizeof error->text, format, list);
     va_end(list);

@@ -95,7 +95,7 @@ bool image_parse(const void *bytes, size_t size, image *out, image_error *error)
 
 static bool unreadable(image_source *source, int number) {
     source_fail(source, "cannot read: %s", strerror(number));
-    source->error->unreadable = true;
+    source->error->unreadable = number;
     return false;
 }
 

@@ -70,7 +70,7 @@ typedef struct image {
 
 /** Why an image was refused. */
 typedef struct image_error {
-    bool unreadable;             /**< the system could not open or read the file; otherwise its content is at fault */
+    int unreadable; /**< errno where the system could not open or read the file; 0: its content is at fault */
     char text[IMAGE_ERROR_SIZE]; /**< one sentence without the path: "cut short: ..." */
 } image_error;
 

@@ -29,7 +29,7 @@ bool source_fail(image_source *source, const char *format, ...) {
     va_start(arguments, format);
     vsnprintf(source->error->text, sizeof source->error->text, format, arguments);
     va_end(arguments);
-    source->error->unreadable = false;
+    source->error->unreadable = 0;
     for (char *c = source->error->text; *c != '\0'; c++)
         if ((unsigned char)*c < 0x20 || (unsigned char)*c >= 0x7f)
             *c = '?';
@@ -59,8 +59,9 @@ size_t source_read(image_source *source, void *to, size_t size) {
 
 bool source_cut(image_source *source, const char *within) {
     if (source->stream != NULL && ferror(source->stream)) {
-        source_fail(source, "cannot read: %s", strerror(errno));
-        source->error->unreadable = true;
+        const int number = errno;
+        source_fail(source, "cannot read: %s", strerror(number));
+        source->error->unreadable = number;
         return false;
     }
     return source_fail(source, "cut short within its %s", within);

@@ -122,7 +122,7 @@ static int read_npy(const char *path, reader *r) {
     image_error error;
     if (!image_read(path, &img, &error)) {
         snprintf(r->error, PAIRS_ERROR_SIZE, "%s", error.text);
-        return -1;
+        return error.unreadable != 0 ? error.unreadable : -1;
     }
     const bool columns = img.width == 2, rows = img.height == 2;
     const size_t count = columns ? img.height : img.width;

@@ -685,6 +685,7 @@ TEST(test_unreadable) {
                 fail_msg("%s: exit status %d, %s", line, p.status, p.errors);
             printed_free(&p);
         }
+    check_says(3, "none.npy: No such file or directory", "judge --pairs none.npy");
 }
 
 /* One letter in four may be wrong, and one more: what is farther from each name is another word. */

@@ -443,28 +443,44 @@ TEST(test_decides) {
     assert_true(j.decides == 0 && z / f - (z - n) / (f - n) > 1.02 / 255); /* 0.1 and 0: nowhere more of the value */
 }
 
-/* An npy file of two columns, and a text with values that are no numbers. */
-TEST(test_read) {
-    char error[PAIRS_ERROR_SIZE], path[] = "/tmp/depthprec-judge-XXXXXX.npy";
-    static const float rows[6] = {0.5F, 2.0F, 0.25F, 3.0F, 1.0F, 4.0F};
-    const int file = mkstemps(path, 4);
-    assert_true(file >= 0);
-    judge_pairs p;
-    FILE *out = fdopen(file, "wb");
+static void write_npy(const char *path, const char *shape, const float values[6]) {
+    FILE *out = fopen(path, "wb");
     const char *order = *(const char *)&(uint16_t){1} != 0 ? "<" : ">";
     char head[119];
-    snprintf(head, sizeof head, "{'descr': '%sf4', 'fortran_order': False, 'shape': (3, 2), }", order);
+    assert_non_null(out);
+    snprintf(head, sizeof head, "{'descr': '%sf4', 'fortran_order': False, 'shape': %s, }", order, shape);
     memset(head + strlen(head), ' ', sizeof head - 2 - strlen(head));
     head[117] = '\n';
     fwrite("\x93NUMPY\x01\0\x76\0", 1, 10, out);
     fwrite(head, 1, 118, out);
-    fwrite(rows, 1, sizeof rows, out);
+    fwrite(values, sizeof *values, 6, out);
     fclose(out);
-    assert_int_equal(judge_pairs_read(path, &p, error), 0);
-    assert_true(p.count == 3 && p.pairs[0].in == 0.25 && p.pairs[0].out == 3 && p.pairs[2].out == 4);
-    assert_true(p.out_digits.absolute == 0 && p.out_digits.relative == 0);
-    judge_pairs_free(&p);
+}
+
+/* An npy file of two columns, and of two rows, and a text with values that are no numbers. */
+TEST(test_read) {
+    char error[PAIRS_ERROR_SIZE], path[] = "/tmp/depthprec-judge-XXXXXX.npy";
+    static const struct {
+        const char *shape;
+        float values[6];
+    } arrays[] = {{"(3, 2)", {0.5F, 2.0F, 0.25F, 3.0F, 1.0F, 4.0F}}, {"(2, 3)", {0.5F, 0.25F, 1.0F, 2.0F, 3.0F, 4.0F}}};
+    const int file = mkstemps(path, 4);
+    assert_true(file >= 0);
+    close(file);
+    judge_pairs p;
+    for (size_t i = 0; i < 2; i++) {
+        write_npy(path, arrays[i].shape, arrays[i].values);
+        assert_int_equal(judge_pairs_read(path, &p, error), 0);
+        assert_true(p.count == 3 && p.pairs[0].in == 0.25 && p.pairs[0].out == 3 && p.pairs[1].in == 0.5);
+        assert_true(p.pairs[1].out == 2 && p.pairs[2].in == 1 && p.pairs[2].out == 4);
+        assert_true(p.out_digits.absolute == 0 && p.out_digits.relative == 0);
+        judge_pairs_free(&p);
+    }
+    write_npy(path, "(6, 1)", arrays[0].values);
+    assert_int_equal(judge_pairs_read(path, &p, error), -1);
+    assert_string_equal(error, "must have two columns, or two rows, got 6 x 1");
     unlink(path);
+    FILE *out;
     path[strlen(path) - 4] = '\0';
     out = fopen(path, "w");
     fprintf(out, "0.5,nan\n0.25,1e-3\n0.75,NaN\n0.125,0.5\n");
