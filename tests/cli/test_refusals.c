@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Refusals and their ends: the option at fault is named first, nothing is written, and the exit status is 2
  * (1 for a check that failed, 3 for a file that cannot be read or written). */
+#define _GNU_SOURCE /* symlink() */
+#include <unistd.h>
+
 #include "printed.h"
 
 #define STREET "tests/models/street.obj"
@@ -686,6 +689,38 @@ TEST(test_unreadable) {
             printed_free(&p);
         }
     check_says(3, "none.npy: No such file or directory", "judge --pairs none.npy");
+}
+
+/* What is read is not overwritten, and stays as it is: what an option names, by a link too, and what a file names. */
+TEST(test_read_and_written) {
+    static const char matrix[] = "1 0 0 0 0 1 0 0 0 0 1.25 -1.25 0 0 1 0\n",
+                      face[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    static const struct {
+        const char *name, *text, *line;
+    } rows[] = {{"depths.txt", "1 2 3\n", "table --at @%1$s -o %1$s.link"},
+                {"pairs.csv", "in,out\n0,1\n0.5,2\n1,4\n", "judge --pairs %1$s -n 1 -f 4 -m d3d -o %1$s.link"},
+                {"model.obj", face, "scene %1$s -o %1$s.link"},
+                {"model.obj", face, "scene %1$s --emit-need %1$s.link"},
+                {"matrix.txt", matrix, "texture --synthetic plane --matrix %1$s --product eye -o %1$s.link"},
+                {"matrix.txt", matrix, "check %2$s -o %1$s.link"}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        char need[256], path[256], link[300], line[1024];
+        snprintf(need, sizeof need, "%s",
+                 scratch_text("camera.need",
+                              "cameras = { a = { matrix = \"matrix.txt\"; mapping = \"d3d\"; format = \"fp32\"; }; };\n"
+                              "requirements = { r = { camera = \"a\"; range = [2, 4]; separation = 0.1; }; };\n"));
+        snprintf(path, sizeof path, "%s", scratch_text(rows[i].name, "%s", rows[i].text));
+        snprintf(link, sizeof link, "%s.link", path);
+        assert_int_equal(symlink(path, link), 0);
+        snprintf(line, sizeof line, rows[i].line, path, need);
+        printed p = print_of("%s", line);
+        char *after = text_of_file(path);
+        if (p.status != 2 || strstr(p.errors, "a file that is read") == NULL || strcmp(after, rows[i].text) != 0)
+            fail_msg("%s: exit status %d, %s%s", line, p.status, p.errors, after);
+        free(after);
+        printed_free(&p);
+        unlink(link);
+    }
 }
 
 /* One letter in four may be wrong, and one more: what is farther from each name is another word. */

@@ -184,7 +184,7 @@ TEST(other_forms) {
     char *line = strtok(p.out, "\r\n");
     assert_non_null(strstr(line, "a_node,a_mesh,a_material,b_node,b_mesh,b_material,gap_min [scene],gap_max [scene]"));
     line = strtok(NULL, "\r\n");
-    snprintf(want, sizeof want, "wall,,brick,sign,,tin,0.0009765625,0.0009765625,2,");
+    snprintf(want, sizeof want, "wall,,brick,sign,,tin,0.0009765625,0.0009765625,2,"); /* the file names no mesh */
     assert_memory_equal(line, want, strlen(want));
     snprintf(want, sizeof want, ",%.17g,%.17g,%.17g,true", number_at(f, "certain_to"), number_at(f, "ties_from"),
              number_at(f, "lift"));
@@ -198,6 +198,28 @@ TEST(other_forms) {
         }
     }
     assert_null(line);
+    printed_free(&p);
+    json_decref(root);
+}
+
+/* Surfaces have the same names in CSV as in JSON. */
+TEST(named_in_csv) {
+    static const char line_of[] = "scene tests/models/house.gltf --separation 0.05";
+    static const char *const names[] = {"node", "mesh", "material"};
+    json_t *root = json_printed(-1, "%s", line_of);
+    printed p = print_of("%s --csv", line_of);
+    char *at = p.out;
+    const size_t count = json_array_size(node_at(root, "findings"));
+    for (size_t i = 0; i < count; i++) {
+        char want[512] = "";
+        at = strchr(at, '\n') + 1;
+        for (int k = 0; k < 6; k++)
+            snprintf(want + strlen(want), sizeof want - strlen(want), "%s,",
+                     text_at(root, "findings[%zu].%c.%s", i, "ab"[k / 3], names[k % 3]));
+        if (strncmp(at, want, strlen(want)) != 0)
+            fail_msg("%s, and not %.*s", want, (int)strcspn(at, "\n"), at);
+    }
+    assert_true(count > 5 && *(strchr(at, '\n') + 1) == '\0');
     printed_free(&p);
     json_decref(root);
 }
