@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which of several channels is depth, in every kind of file that has them: pixels put together here. */
 #include "handmade.h"
+#include "image/channel.h"
 #include "image/image.h"
 #include "printed.h"
 
@@ -223,6 +224,21 @@ static const char *write_file(const char *name, const handmade *h) {
 }
 
 /* Lengths, window depths and disparities of a colour picture are refused alike; a packing takes all channels. */
+/* What Blender, Nuke and others call depth; and what merely ends so, or is of another layer. */
+TEST(names_of_depth) {
+    static const char *const depth[] = {
+        "Z",       "z",     "depth",      "Depth", "ViewLayer.Depth.Z", "ViewLayer.Depth.V", "depth.R", "View.depth.Y",
+        "Depth.X", "a.b.Z", "layer.DEPTH"};
+    static const char *const other[] = {"R",         "V", "Y",        "zdepth",   "Depth.G", "ViewLayer.Combined.R",
+                                        "mydepth.V", "A", "depth.Zz", "Normal.X", "Depth.B", "ViewLayer.Mist.Y"};
+    for (size_t i = 0; i < sizeof depth / sizeof depth[0]; i++)
+        if (!channel_of_depth(depth[i]))
+            fail_msg("%s is no depth", depth[i]);
+    for (size_t i = 0; i < sizeof other / sizeof other[0]; i++)
+        if (channel_of_depth(other[i]))
+            fail_msg("%s is depth", other[i]);
+}
+
 TEST(by_the_program) {
     handmade grey = {.size = 0}, colour = {.size = 0}, one = {.size = 0};
     char path[256], same[256], single[256];

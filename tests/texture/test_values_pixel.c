@@ -236,6 +236,63 @@ TEST(without_a_bound) {
     free(shot.data);
 }
 
+/* What is usual in perspective pictures tells the mapping of these alone; of an orthographic one d3d is assumed. */
+TEST(mapping_of_what_is_seen) {
+    const char *path = scratch_file("sphere.npy");
+    printed p = print_of("texture --synthetic sphere -F d24 -m reversed -n 0.1 -f 1000 --size 64x48 -q -o %s", path);
+    assert_int_equal(p.status, 0);
+    printed_free(&p);
+    for (int ortho = 0; ortho < 2; ortho++) {
+        json_t *root = json_printed(0, "texture %s -F d24 -n 0.1 -f 1000%s", path, ortho ? " --ortho" : "");
+        assert_true(flag_at(root, "recognised.reversed"));
+        assert_string_equal(text_at(root, "mapping"), ortho ? "d3d" : "reversed");
+        assert_string_equal(text_at(root, "mapping_from"), "assumed");
+        json_decref(root);
+    }
+}
+
+/* A grey of a PNG is offset + scale grey of what the same product has in an npy file; 0 stands for no value. */
+TEST(greys_mean_what_is_said) {
+    static const char *const products[] = {"linear01",
+                                           "eye",
+                                           "radial",
+                                           "normal:projective",
+
+                                           "eye --parameter distance=5",
+                                           "effect:fog"};
+    for (size_t i = 0; i < sizeof products / sizeof products[0]; i++) {
+        static const char line[] =
+            "texture --synthetic plane --parameter tilt=20 -F d24 -m d3d -n 0.5 -f 40 --size 24x16 "
+            "-q --product %s -o %s%s";
+        char path[2][256];
+        image grey, number;
+        image_error error;
+        for (int k = 0; k < 2; k++)
+            snprintf(path[k], sizeof path[k], "%s", scratch_file(k == 0 ? "product.png" : "product.npy"));
+        json_t *root = json_printed(0, line, products[i], path[0], "");
+        printed p = print_of(line, products[i], path[1], "");
+        assert_int_equal(p.status, 0);
+        assert_true(image_read(path[0], &grey, &error) && image_read(path[1], &number, &error));
+        const double offset = number_at(root, "offset"), scale = number_at(root, "scale");
+        const size_t count = (size_t)grey.width * grey.height * grey.channels;
+        assert_true(count == (size_t)number.width * number.height * number.channels);
+        size_t seen = 0;
+        for (size_t at = 0; at < count; at++) {
+            const double g = ((const uint16_t *)grey.data)[at], value = (double)((const float *)number.data)[at];
+            const double x = i == 3 && at % 3 == 2 ? -value : value; /* towards the camera */
+            const bool none = isnan(x);
+            seen += !none;
+            if (none ? g != 0 : fabs(offset + scale * g - x) > 0.5000001 * scale + 1e-6 * fabs(x))
+                fail_msg("%s, sample %zu: %g is %g, and not %g", products[i], at, g, offset + scale * g, x);
+        }
+        assert_true(seen > count / 4);
+        image_free(&grey);
+        image_free(&number);
+        printed_free(&p);
+        json_decref(root);
+    }
+}
+
 /* Orthographic rays start in a plane. 10 sqrt(1 + 2 (7/8 tan 30)^2) = 12.289901, and a code that is off by 1.57e-7. */
 TEST(distance) {
     static const char line[] = "texture --synthetic plane --size 8x8 -F fp32 -m reversed --pixel 0,0";
