@@ -135,7 +135,7 @@ static bool read_matrix(reader *r, setting *s, camera_said *c) {
         return false;
     const int status =
         camera_matrix_read(&c->matrix, camera_matrix_is_typed(text) ? text : reader_path(r, text, path), error);
-    return status == 0 || reader_fail(r, s, "matrix: %.200s", status > 0 ? strerror(status) : error);
+    return status > 0 ? reader_unreadable(r, s, status) : status == 0 || reader_fail(r, s, "matrix: %.200s", error);
 }
 
 static bool read_ortho(reader *r, setting *s, camera_said *c) {

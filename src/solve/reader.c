@@ -91,6 +91,12 @@ bool reader_string(reader *r, const setting *s, const char **out) {
     return true;
 }
 
+bool reader_unreadable(reader *r, const setting *s, int number) {
+    reader_fail(r, s, "%s: '%.120s' cannot be read: %s", s->name, s->string, strerror(number));
+    r->error->unreadable = true;
+    return false;
+}
+
 const char *reader_path(const reader *r, const char *name, char out[READER_PATH_SIZE]) {
     const char *here = r->file->path;
     snprintf(out, READER_PATH_SIZE, "%.*s%s", path_is_absolute(name) ? 0 : (int)(path_name(here) - here), here, name);
@@ -99,8 +105,8 @@ const char *reader_path(const reader *r, const char *name, char out[READER_PATH_
 
 bool reader_profile(reader *r, const setting *s, camera_key key, camera_said *c, char name[PROFILE_NAME_SIZE]) {
     char path[READER_PATH_SIZE], error[PROFILE_ERROR_SIZE];
-    return camera_profile(c, reader_path(r, s->string, path), key, name, error) == 0 ||
-           reader_fail(r, s, "%s: %s", s->name, error);
+    const int status = camera_profile(c, reader_path(r, s->string, path), key, name, error);
+    return status > 0 ? reader_unreadable(r, s, status) : status == 0 || reader_fail(r, s, "%s: %s", s->name, error);
 }
 
 bool reader_name(reader *r, const setting *s, const char *name) {

@@ -21,6 +21,9 @@ enum { READER_POSITIVE = 1 << 0, READER_INFINITE = 1 << 1, READER_SIGNED = 1 << 
 /* Notes what is wrong and where; s may be null. @return false */
 bool reader_fail(reader *r, const setting *s, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
+/* The same of the file that a setting names, by a number of errno. */
+bool reader_unreadable(reader *r, const setting *s, int number);
+
 /* The same of a fault of a camera: at its key, or else at the preset, which then chose the value, or the group. */
 bool reader_fault(reader *r, const setting *group, const preset *of, const camera_fault *fault);
 

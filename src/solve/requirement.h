@@ -63,7 +63,7 @@ enum { NEED_TEXT_SIZE = 256, NEED_KNOWN_SIZE = 1024, NEED_BYTES_MAX = 1 << 26 };
 /** Why a file was refused. */
 typedef struct need_error {
     int line;                    /**< 0 when it is about the file as a whole */
-    bool unreadable;             /**< the file could not be read at all */
+    bool unreadable;             /**< the file, or one that it names, could not be read */
     char text[NEED_TEXT_SIZE];   /**< what is allowed and what was found, one line */
     char given[64];              /**< a name that is not known, for a suggestion; else "" */
     char known[NEED_KNOWN_SIZE]; /**< the names that are, separated by spaces */

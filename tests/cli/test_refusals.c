@@ -689,6 +689,19 @@ TEST(test_unreadable) {
             printed_free(&p);
         }
     check_says(3, "none.npy: No such file or directory", "judge --pairs none.npy");
+    static const char *const settings[] = {"matrix = \"none.txt\";", "near = 1; far = 9; arith = \"none.txt\";"};
+    for (size_t i = 0; i < sizeof settings / sizeof settings[0]; i++) {
+        char line[256];
+        snprintf(line, sizeof line, "check %s",
+                 scratch_text("names.need",
+                              "cameras = { a = { %s mapping = \"d3d\"; format = \"fp32\"; }; };\n"
+                              "requirements = { r = { camera = \"a\"; range = [2, 4]; separation = 0.1; }; };\n",
+                              settings[i]));
+        check_says(3,
+                   i == 0 ? "names.need:1: matrix: 'none.txt' cannot be read: No such file or directory"
+                          : "names.need:1: arith: 'none.txt' cannot be read: No such file or directory",
+                   "%s", line);
+    }
 }
 
 /* What is read is not overwritten, and stays as it is: what an option names, by a link too, and what a file names. */
