@@ -472,6 +472,42 @@ static void check_completed(const char *shell, const option_row *row, const char
         fail_msg("%s: no '%s%s'", shell, begins, words);
 }
 
+/* What bash offers behind words that were typed. */
+TEST(bash_completes) {
+    static const struct {
+        const char *words, *offered; /* the last word is the one that is typed */
+    } rows[] = {{"depthprec plot --theme ''", "light dark print"},
+                {"depthprec plot --theme da", "dark"},
+                {"depthprec check --report ''", "text json junit"},
+                {"depthprec completions ''", "bash zsh fish --help --version"},
+                {"depthprec com", "completions"},
+                {"depthprec table --tol", "--tolerance"},
+                {"depthprec bias --remedy n", "ndc normal near"}};
+    if (system("command -v bash >/dev/null") != 0)
+        skip();
+    const char *path = scratch_file("completions");
+    FILE *out = fopen(path, "w");
+    printed script = print_of("completions bash");
+    assert_true(out != NULL && script.status == 0);
+    fprintf(out, "%s\ntry() { COMP_WORDS=(\"$@\") COMP_CWORD=$(($# - 1)); _depthprec; echo \"${COMPREPLY[*]}\"; }\n",
+            script.out);
+    printed_free(&script);
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        fprintf(out, "try %s\n", rows[i].words);
+    fclose(out);
+    char line[512], got[512];
+    snprintf(line, sizeof line, "bash '%s'", path);
+    FILE *in = popen(line, "r");
+    assert_non_null(in);
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        assert_non_null(fgets(got, sizeof got, in));
+        got[strcspn(got, "\n")] = '\0';
+        if (strcmp(got, rows[i].offered) != 0)
+            fail_msg("%s: %s, and not %s", rows[i].words, got, rows[i].offered);
+    }
+    pclose(in);
+}
+
 /* Without a topic all topics are listed, in each form. */
 TEST(topics_alone) {
     json_t *root = json_printed(0, "list");

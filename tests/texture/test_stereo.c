@@ -332,7 +332,7 @@ TEST(rows_of_data_sheets) {
     };
     json_t *list = run_json("list sensors");
     const json_t *items = json_object_get(list, "items");
-    size_t with = 0;
+    size_t with = 0, focal_lengths = 0;
     assert_true(json_array_size(items) >= 22);
     for (size_t i = 0; i < json_array_size(items); i++) {
         const char *name = json_string_value(json_object_get(json_array_get(items, i), "name"));
@@ -353,10 +353,22 @@ TEST(rows_of_data_sheets) {
             assert_relative(number_in(row, "step"), s > 0 ? z / (1 - z * s) - z : sheet->even, 1e-5);
             assert_relative(number_in(row, "error"), s > 0 ? z / (1 - z * s / 2) - z : sheet->even / 2, 1e-5);
         }
+        const char *text = json_string_value(json_object_get(json_array_get(items, i), "sheet"));
+        const char *part = text != NULL ? strstr(text, " pixel, focal length ") : NULL;
+        double pixel, focal, millimetres;
+        if (sheet != NULL && sheet->inverse > 0) { /* a level is that part of a pixel's disparity */
+            assert_non_null(part);
+            while (part > text && part[-1] != ' ')
+                part--;
+            assert_int_equal(sscanf(part, "%lf pixel, focal length %lf, baseline %lf mm", &pixel, &focal, &millimetres),
+                             3);
+            assert_relative(pixel / (focal * millimetres / 1000), sheet->inverse, 1e-5);
+            focal_lengths++;
+        }
         with += sheet != NULL;
         json_decref(root);
     }
-    assert_true(with == sizeof sheets / sizeof sheets[0]);
+    assert_true(focal_lengths == 11 && with == sizeof sheets / sizeof sheets[0]);
     json_decref(list);
 }
 
