@@ -390,19 +390,23 @@ static void check_places(tally *t, rng *r, size_t p, const method_row *row, cons
     const code_said said = code_places(&printed, begin(p), row, camera, false);
     const double bound = said.claims[1].bound;
     for (size_t i = 0; i < count * VARIANTS; i++) {
-        static const float centres[] = {0.5f, 1.5f, 959.5f, 960, 960.5f, 1919.5f, 0, 1920};
+        static const float centres[2][8] = {{0.5f, 1.5f, 959.5f, 960, 960.5f, 1919.5f, 0, 1920},
+                                            {0.5f, 1.5f, 539.5f, 540, 540.5f, 1079.5f, 0, 1080}};
+        const int side = (int)(i % 2),
+                  size = (int)(side == 0 ? camera->width : camera->height); /* x to the right, y up */
         const device v = variant(r, p, (int)(i / count));
-        float at = d[i % count], in[2] = {centres[rng_below(r, 8)], 0};
+        float at = d[i % count], in[2] = {centres[side][rng_below(r, 8)], 0};
         double z[4], x[4];
         if (!is_promised(s, at, bound))
             continue;
         printed_compute(text(), "eye_depth", p, &v, &at, z);
         in[1] = (float)z[0];
-        printed_compute(text(), "view_x", p, &v, in, x);
-        const long double is = (2 * (long double)in[0] / camera->width - 1) * camera->half[0] * eye_of(s, at);
+        printed_compute(text(), side == 0 ? "view_x" : "view_y", p, &v, in, x);
+        const long double share = 2 * (long double)in[0] / size - 1;
+        const long double is = (side == 0 ? share : -share) * camera->half[side] * eye_of(s, at);
         const double off = (double)fabsl(x[0] - is);
-        TALLY(t, off <= bound * fabsl(is), "places in %s, near %g, d %a, column %g: off by %g of %Lg", promises[p].name,
-              s->spec.znear, (double)at, (double)in[0], off, bound * fabsl(is));
+        TALLY(t, off <= bound * fabsl(is), "places in %s, near %g, d %a, %s %g: off by %g of %Lg", promises[p].name,
+              s->spec.znear, (double)at, side == 0 ? "column" : "row", (double)in[0], off, bound * fabsl(is));
     }
 }
 
