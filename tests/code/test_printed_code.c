@@ -463,6 +463,40 @@ TEST(every_place_and_matrix_keeps_its_bound) {
     tally_end(&t);
 }
 
+/* Orthographic rays are parallel: no depth goes in. */
+TEST(every_parallel_place_keeps_its_bound) {
+    rng r = rng_make("printed parallel places");
+    tally t = {.name = "parallel places"};
+    for (size_t p = 0; p < PROMISES; p++)
+        for (int k = 0; k < 20; k++) {
+            dp_setup s;
+            dp_spec spec = dp_spec_default();
+            texture_camera camera;
+            camera_spec view = camera_spec_default();
+            spec.ortho = 1;
+            assert_int_equal(dp_setup_init(&s, &spec), DP_OK);
+            view.width = 1 + (uint32_t)rng_below(&r, 4000);
+            view.height = 1 + (uint32_t)rng_below(&r, 4000);
+            view.half_height = rng_log(&r, 1e-3, 1e3);
+            assert_null(camera_init(&camera, &s, &view));
+            const code_said said = code_places(&printed, begin(p), NULL, &camera, false);
+            for (int i = 0; i < 40; i++) {
+                const int side = i % 2;
+                const uint32_t size = side == 0 ? view.width : view.height;
+                const float in = (float)rng_below(&r, size) + 0.5f;
+                const device v = variant(&r, p, i % VARIANTS);
+                const long double half =
+                    (long double)view.half_height * (side == 0 ? (long double)view.width / view.height : 1);
+                const long double share = 2 * (long double)in / size - 1, is = (side == 0 ? share : -share) * half;
+                double x[4];
+                printed_compute(text(), side == 0 ? "view_x" : "view_y", p, &v, &in, x);
+                TALLY(&t, fabsl(x[0] - is) <= said.claims[1].bound * fabsl(is), "%s, %u of %u: %g, is %Lg",
+                      promises[p].name, (unsigned)in, size, x[0], is);
+            }
+        }
+    tally_end(&t);
+}
+
 /* ---- Depth in channels ------------------------------------------------------------------------------------------- */
 
 static int channels_of(const packing *p, int channel[4]) {
