@@ -104,3 +104,26 @@ TEST(refused) {
     };
     CHECK_REFUSED("scene " STREET, rows);
 }
+
+/* A back is drawn where it is judged as well: --also of it, and of nothing else. */
+TEST(backs_are_drawn_where_they_are_judged) {
+    static const char *const faces[] = {"1 2 3", "1 3 2"}, *const also[] = {"", "--also facing", "--also hidden"};
+    size_t drawn[2][3] = {{0}}; /* pixels unlike that in the corner */
+    for (int back = 0; back < 2; back++)
+        for (int k = 0; k < 3; k++) {
+            char path[256], line[1024];
+            snprintf(path, sizeof path, "%s",
+                     scratch_text("face.obj", "v -1 0 0\nv 1 0 0\nv 0 2 0\nf %s\n", faces[back]));
+            const char *seen = scratch_file("face.png");
+            snprintf(line, sizeof line,
+                     "scene %s %s -F d24 -m d3d --eye 0,1,5 --look 0,1,0 --viewport 64x48 --render %s -q", path,
+                     also[k], seen);
+            free(output_of(0, line, ""));
+            const picture p = read_png(seen);
+            for (size_t i = 0; i < (size_t)p.head.width * p.head.height; i++)
+                drawn[back][k] += memcmp(p.rgb, p.rgb + 3 * i, 3) != 0;
+            free(p.rgb);
+        }
+    assert_true(drawn[0][0] > 100 && drawn[0][1] == drawn[0][0] && drawn[0][2] == drawn[0][0]);
+    assert_true(drawn[1][0] == 0 && drawn[1][1] == drawn[0][0] && drawn[1][2] == 0);
+}
