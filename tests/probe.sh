@@ -151,7 +151,8 @@ check "a GPU without a row" refuses "no row predicts" table --viewport 9x9 --ras
 check "a row that is not known" refuses "'made-up'" table --arith "$scratch/strange.json"
 check "JSON of another command" refuses "must be a profile" table --arith "$scratch/other.json"
 check "no JSON" refuses "cannot be read" table --arith README.md
-check "no file" refuses "cannot be read" table --arith "$scratch/none.json"
+missing() { (expected=3 && refuses "$@"); }
+check "no file" missing "none.json: No such file or directory" table --arith "$scratch/none.json"
 check "control characters of a driver are not printed" sh -c \
     '! "$1" table -F d32f --arith "$2" | grep -q "$(printf "\033")"' - "$DEPTHPREC" "$scratch/rude.json"
 
