@@ -548,8 +548,12 @@ static void check_text_distance(values *v, const solve_case *c, const char *text
     free(sentence);
     assert_true((strstr(text, "first found to z-fight at z") != NULL) == seen);
     assert_true((strstr(text, "holds again") != NULL) == (value_find(v, "again[0].lo") != NULL));
-    if (value_find(v, "again[0].lo") != NULL)
+    if (value_find(v, "again[0].lo") != NULL) {
+        double lo, hi; /* rounded into what holds */
         check_line(v, text, "holds again", "again[0].lo:6, again[0].hi:6");
+        assert_int_equal(sscanf(strstr(text, "holds again"), "holds again from z = %lf%*[ a-z]%lf", &lo, &hi), 2);
+        assert_true(lo >= number_at(root, "again[0].lo") && hi <= number_at(root, "again[0].hi"));
+    }
     assert_true((strstr(text, "  assumed  ") != NULL) == (strstr(c->arguments, "-f ") == NULL));
 }
 
