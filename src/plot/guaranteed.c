@@ -68,12 +68,10 @@ typedef struct reach {
     double to;
 } reach;
 
+/* A column in which certainty ends shows what lies before; of those behind nothing is shown. */
 static void sample(const void *context, double from, double to, refine_sample *out) {
     const reach *r = context;
-    if (from > r->to)
-        *out = (refine_sample){.y = {(double)NAN}};
-    else
-        envelope_separation(r->setup, from, fmin(to, r->to), out);
+    envelope_separation(r->setup, from, fmin(to, r->to), out);
 }
 
 chart_series *guaranteed_separation(chart *out, chart_panel *panel, refine_request *q, const dp_setup *setup) {
