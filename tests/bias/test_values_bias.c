@@ -307,7 +307,6 @@ TEST(one_answer) {
         }
 }
 
-/* What the list of interfaces says of one unit of a 24-bit target is what a bias is computed with. */
 /* What is nearer has a smaller window depth, or in a reversed one a greater. */
 TEST(nearer_by_its_sign) {
     static const struct {
@@ -322,6 +321,7 @@ TEST(nearer_by_its_sign) {
                    rows[i].mapping);
 }
 
+/* What the list of interfaces says of one unit of a 24-bit target is what a bias is computed with. */
 TEST(units_as_listed) {
     static const struct {
         const char *rule;

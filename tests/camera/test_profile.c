@@ -285,10 +285,12 @@ TEST(test_bias_measured) {
         }
 }
 
+/* A further finding of a profile. */
+static const char cuts[] =
+    ", {\"key\": \"fraction\", \"found\": \"fractions of a constant are cut\", \"sure\": \"sure\"}";
+
 /* A platform's scale comes on top; fractions are cut where that was found. Words say so. */
 TEST(test_bias_beside) {
-    static const char cuts[] =
-        ", {\"key\": \"fraction\", \"found\": \"fractions of a constant are cut\", \"sure\": \"sure\"}";
     double r[2];
     const char *path = scratch_file("bias.json");
     write_bias("bias.json", 1, cuts); /* 2^(n-22) */
@@ -346,8 +348,6 @@ TEST(test_bias_of_two_said) {
 /* Two GPUs: the least and the greatest r of both, or none where one is not known; fractions are cut where one of them
  * cuts. */
 TEST(test_bias_of_two) {
-    static const char cuts[] =
-        ", {\"key\": \"fraction\", \"found\": \"fractions of a constant are cut\", \"sure\": \"sure\"}";
     static const struct {
         size_t a, b;
         double least, most;

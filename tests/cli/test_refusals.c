@@ -604,9 +604,17 @@ static void check_told(tally *t, const char *arguments, const printed *p, const 
     json_decref(root);
 }
 
+/* None of the files that the lines name is there; one that is goes, or the next line would be accused. */
+static void check_unwritten(tally *t, const char *arguments) {
+    static const char *const names[] = {"x.svg", "x.npy", "x.png", "x.txt", "x.pfm", "x.xyz"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        TALLY(t, unlink(names[i]) != 0, "%s: wrote %s", arguments, names[i]);
+}
+
 static void check_refusal(tally *t, const char *arguments, const char *option, int status) {
     char begin[96];
     printed p = print_of("%s", arguments);
+    check_unwritten(t, arguments);
     TALLY(t, p.status == status, "%s: exit status %d, not %d: %s", arguments, p.status, status, p.errors);
     snprintf(begin, sizeof begin, option != NULL && *option != '\0' ? "depthprec: --%s: " : "depthprec: ", option);
     if (option != NULL) {

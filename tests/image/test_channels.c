@@ -223,7 +223,6 @@ static const char *write_file(const char *name, const handmade *h) {
     return path;
 }
 
-/* Lengths, window depths and disparities of a colour picture are refused alike; a packing takes all channels. */
 /* What Blender, Nuke and others call depth; and what merely ends so, or is of another layer. */
 TEST(names_of_depth) {
     static const char *const depth[] = {
@@ -239,6 +238,7 @@ TEST(names_of_depth) {
             fail_msg("%s is depth", other[i]);
 }
 
+/* Lengths, window depths and disparities of a colour picture are refused alike; a packing takes all channels. */
 TEST(by_the_program) {
     handmade grey = {.size = 0}, colour = {.size = 0}, one = {.size = 0};
     char path[256], same[256], single[256];

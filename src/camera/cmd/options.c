@@ -126,7 +126,7 @@ static int parse_matrix(asked_line *line, const option_row *row, const char *val
     char error[MATRIX_ERROR_SIZE];
     const int status = *value != '\0' ? camera_matrix_read(&c->matrix, value, error) : ENOENT;
     if (status > 0)
-        return option_unreadable(row, value, status);
+        return option_unreadable(row->name, value, status);
     if (status < 0)
         return option_refuse(row, "%s", error);
     return c->matrix.count == MATRIX_ENTRIES || option_used(line->command, ~0u, option_find(line->command, "fov")).row

@@ -12,7 +12,7 @@ static int parse_profile(asked_line *line, const option_row *row, const char *va
         return parse(line, row, value, group);
     const int status = camera_profile(&c->said, value, key, name, error);
     if (status != 0)
-        return status > 0 ? option_unreadable(row, value, status) : option_refuse(row, "%s", error);
+        return status > 0 ? option_unreadable(row->name, value, status) : option_refuse(row, "%s", error);
     if (!names_find(row->names, name, NULL, NULL))
         return option_refuse(row, "'%s' names what is not known here, '%.40s'", value, name);
     return parse(line, row, name, group);

@@ -306,7 +306,7 @@ static int read_all(asked_line *line, length_reader *seen, const option_row *row
     if (list == NULL)
         return option_refuse(row, "no memory for the depths of %s", path);
     if (ferror(in))
-        return option_unreadable(row, path, errno);
+        return option_unreadable(row->name, path, errno);
     if (d.count == 0)
         return option_refuse(row, "%s: holds no depth", path);
     d.list = list;
@@ -319,7 +319,7 @@ static int parse_file(asked_line *line, length_reader *seen, const option_row *r
     errno = 0;
     FILE *in = input_open(path);
     if (in == NULL)
-        return option_unreadable(row, path, errno);
+        return option_unreadable(row->name, path, errno);
     const int status = read_all(line, seen, row, path, in, out);
     input_close(in);
     return status;

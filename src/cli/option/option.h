@@ -283,8 +283,8 @@ int option_error(const char *name, const char *format, ...) __attribute__((forma
 /** The same of what was typed. @return EXIT_USAGE */
 int option_refuse(const option_row *row, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/** Refuses a file that cannot be read, by a number of errno. @return EXIT_IO after one line on stderr */
-int option_unreadable(const option_row *row, const char *path, int number);
+/** The same of a file that cannot be read, by a number of errno. @return EXIT_IO after one line on stderr */
+int option_unreadable(const char *name, const char *path, int number);
 
 /** Presets and platforms choose what the user did not give: option_error() says so of these, until all is forgotten. */
 void option_chosen(const asked_line *line, const char *by, const char *name, const char *const names[]);

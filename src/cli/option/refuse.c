@@ -60,7 +60,7 @@ int option_refuse(const option_row *row, const char *format, ...) {
     return status;
 }
 
-int option_unreadable(const option_row *row, const char *path, int number) {
-    option_refuse(row, "%s: %s", path, strerror(number));
+int option_unreadable(const char *name, const char *path, int number) {
+    option_error(name, "%s: %s", path, strerror(number));
     return EXIT_IO;
 }

@@ -172,12 +172,10 @@ static int take_path(scene *s) {
     const size_t size = in != NULL ? fread(text, 1, FILE_MOST + 1, in) : 0;
     const int error = errno;
     int status = EXIT_FINE;
-    if (in == NULL || ferror(in)) {
-        option_error("path", "%s: %s", s->o.scene.path, strerror(error));
-        status = EXIT_IO;
-    } else if (size > FILE_MOST) {
+    if (in == NULL || ferror(in))
+        status = option_unreadable("path", s->o.scene.path, error);
+    else if (size > FILE_MOST)
         status = option_error("path", "%s: must be at most %d bytes", s->o.scene.path, FILE_MOST);
-    }
     input_close(in);
     if (status == EXIT_FINE)
         status = read_lines(s, text, size);
