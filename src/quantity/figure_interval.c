@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "camera/surfaces.h"
 #include "core/append.h"
 #include "plot/guaranteed.h"
 #include "zfight/census.h"
@@ -70,7 +71,7 @@ static void add_slanted(const figure_request *request, chart *out, chart_panel *
         strokes = figure_style(request, k).stroke >= strokes ? figure_style(request, k).stroke + 1 : strokes;
     s->style.stroke += strokes;
     s->style.marker = -1;
-    append(s->name, sizeof s->name, ", any slant");
+    append(s->name, sizeof s->name, ", %s", surfaces_words(&spec->triangles).text);
 }
 
 /* The longest intervals that there are, each where it begins: none of them lies above the guarantee. */

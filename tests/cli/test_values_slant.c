@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Slanted triangles in table and budget, against the library; options spelled out here by hand. */
+#include <ctype.h>
+
 #include "bias/bias.h"
 #include "printed.h"
 
@@ -222,28 +224,88 @@ TEST(text) {
     printed_free(&p);
 }
 
-/* One slant is called by its degrees wherever surfaces at it are meant; a range is any slant of it. */
-TEST(one_slant) {
-#define VIEW87 "-F d24 -m d3d --viewport 1920x1080 --slant 87:87"
-    static const char *const lines[][2] = {
-        {"table " VIEW87, "to be resolved at 87 degrees:"},
-        {"table --range 1:100 " VIEW87, "\n  at 87 degrees"},
-        {"table -F d24,d16 -m d3d --viewport 1920x1080 --slant 87:87", "resolves 0.01 at 87 degrees up to"},
-        {"table -F d24,d16 -m d3d --viewport 1920x1080 --slant 87:87", "guaranteed at that slant, z"},
-        {"solve --for distance --separation 0.01 " VIEW87, "at 87 degrees is guaranteed"},
-        {"solve --for near --at 100 --separation 0.01 " VIEW87, "resolve 0.01 at 87 degrees"},
-        {"solve --for near --at 100 --separation 0.01 " VIEW87, "ieee, at 87 degrees\n"}};
-#undef VIEW87
-    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
-        printed p = print_of("%s", lines[i][0]);
-        for (char *c = p.out; (c = strstr(c, "\n  ")) != NULL && strstr(lines[i][1], "\n") == NULL;) {
-            *c = ' '; /* sentences go on behind a break */
-            memmove(c + 1, c + 3, strlen(c + 3) + 1);
+/* A text on one line: where it was broken, and how far it was indented, is not asked. */
+static void unfold(char *text) {
+    char *to = text;
+    for (char *from = text; *from != '\0'; from++)
+        if (!isspace((unsigned char)*from))
+            *to++ = *from;
+        else if (to > text && to[-1] != ' ')
+            *to++ = ' ';
+    *to = '\0';
+}
+
+static int times(const char *text, const char *word) {
+    int n = 0;
+    for (const char *at = text; (at = strstr(at, word)) != NULL; at += strlen(word))
+        n++;
+    return n;
+}
+
+/* Surfaces are called by the slants that were asked about, in every command and form; by any slant where it was all. */
+TEST(which_slants) {
+    static const struct {
+        const char *slant, *words, *column;
+    } slants[] = {{"0:90", "any slant", "any slant"},
+                  {"87:87", "87 degrees", "that slant"},
+                  {"0:0", "0 degrees", "that slant"},
+                  {"10:80", "10 to 80 degrees", "that slant"},
+                  {"0:45.5", "0 to 45.5 degrees", "that slant"},
+                  {"30:90", "30 to 90 degrees", "that slant"}};
+    static const struct {
+        const char *line, *format; /* the words, or with # what stands above a column */
+    } lines[] = {{"table -F d24 -m d3d", "to be resolved at %s:"},
+                 {"table -F d24 -m d3d --range 1:100", " at %s "},
+                 {"table -F d24,d16 -m d3d", "resolves 0.01 at %s up to"},
+                 {"table -F d24,d16 -m d3d", "guaranteed at #, z"},
+                 {"solve -F d24 -m d3d --for distance --separation 0.01", "at %s is guaranteed"},
+                 {"solve -F d24 -m d3d --for near --at 100 --separation 0.01", "resolve 0.01 at %s"},
+                 {"solve -F d24 -m d3d --for near --at 100 --separation 0.01", "ieee, at %s "},
+                 {"solve --preset gltf-viewer --separation 1cm --at 40m", "a separation of 1 cm at %s is guaranteed"},
+                 {"scene tests/models/house.gltf -F d24 -m d3d --within 60", "Decided in float, at %s; "},
+                 {"plot scene tests/models/house.gltf -F d24 -m d3d --json", ", %s at 1920 x 1080"},
+                 {"plot interval -F d24 -m d3d --csv", "unorm24 d3d, %s [scene units]"}};
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
+        for (size_t k = 0; k < sizeof slants / sizeof slants[0]; k++) {
+            char said[128];
+            const char *hash = strchr(lines[i].format, '#');
+            if (hash != NULL)
+                snprintf(said, sizeof said, "%.*s%s%s", (int)(hash - lines[i].format), lines[i].format,
+                         slants[k].column, hash + 1);
+            else
+                snprintf(said, sizeof said, lines[i].format, slants[k].words);
+            printed p = print_of("%s --viewport 1920x1080 --slant %s", lines[i].line, slants[k].slant);
+            unfold(p.out);
+            if (p.status > 1 || strstr(p.out, said) == NULL || (k > 0 && strstr(p.out, "any slant") != NULL))
+                fail_msg("%s --slant %s: no \"%s\", or any slant:\n%s%s", lines[i].line, slants[k].slant, said, p.out,
+                         p.errors);
+            printed_free(&p);
         }
-        if (strstr(p.out, lines[i][1]) == NULL || strstr(p.out, "any slant") != NULL)
-            fail_msg("%s: no \"%s\", or any slant:\n%s", lines[i][0], lines[i][1], p.out);
-        assert_non_null(strstr(p.out, "slant 87 degrees"));
+}
+
+/* The same of a requirement, which says it of what needs it: not of an error, nor without a viewport. */
+TEST(which_slants_are_checked) {
+    static const char *const slants[][2] = {
+        {"", "any slant"}, {"slant = [10, 80];", "10 to 80 degrees"}, {"slant = [30, 30];", "30 degrees"}};
+    for (size_t k = 0; k < sizeof slants / sizeof slants[0]; k++) {
+        const char *need = scratch_text("slants.need",
+                                        "cameras = { a = { near = 0.1; far = 1000; mapping = \"d3d\"; format = "
+                                        "\"d24\"; viewport = [1920, 1080]; fov = 60; subpixel = 8; %s };"
+                                        "  b = { near = 0.1; far = 1000; mapping = \"d3d\"; format = \"d24\"; }; };"
+                                        "requirements = { s = { camera = \"a\"; at = 10; separation = 1; };"
+                                        "  e = { camera = \"a\"; at = 10; error = 1; };"
+                                        "  f = { camera = \"b\"; at = 10; separation = 1; }; };",
+                                        slants[k][0]);
+        printed p = print_of("check %s --full", need);
+        unfold(p.out);
+        assert_int_equal(times(p.out, slants[k][1]), 1);
+        assert_true(times(p.out, "any slant") == (k == 0));
         printed_free(&p);
+        json_t *root = json_printed(0, "check %s", need);
+        for (int i = 0; i < 3; i++)
+            assert_string_equal(text_at(node_at(root, "requirements[%d]", i), "surfaces"),
+                                i == 0 ? slants[k][1] : "facing");
+        json_decref(root);
     }
 }
 

@@ -47,13 +47,6 @@ void slant_say(page *p, slant_line *line, const camera_asked *c, const dp_setup 
          number_full(t->depth).text, number_full(t->pixels).text, number_up(t->slim, DIGITS).text);
 }
 
-number_text slant_words(const dp_triangles *t) {
-    number_text out = {"any slant"};
-    if (t->slant_lo == t->slant_hi)
-        out = number_in(number_of(t->slant_lo, DIGITS), "degrees");
-    return out;
-}
-
 const char *slant_assumed(const dp_triangles *t, char out[SLANT_ASSUMED_SIZE]) {
     snprintf(out, SLANT_ASSUMED_SIZE, "%dx%d, fov %s", t->width, t->height, number_of(t->fov_y, DIGITS).text);
     if (t->subpixel > 0)

@@ -4,6 +4,7 @@
 #define CAMERA_CMD_SLANT_H
 
 #include "camera/cmd/camera.h"
+#include "camera/surfaces.h"
 #include "report/number.h"
 #include "report/report.h"
 
@@ -23,9 +24,6 @@ extern const column slant_view_columns[]; /**< of dp_triangles: the view that is
         FIELD(type, slanted, "guarantee_slanted", "scene"), SHOWN("slanted", width, digits), .upward = true,           \
                                                                                              .when = (its_when)        \
     }
-
-/** The surfaces for which a guarantee holds: "any slant", "87 degrees". */
-number_text slant_words(const dp_triangles *t);
 
 /** The word for the other guarantee, and what explains it; the page of the browser has the same. */
 #define SLANT_FACING  "facing the camera"

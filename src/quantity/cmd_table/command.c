@@ -70,7 +70,7 @@ typedef struct table {
     clipping planes;
     const clipping *drawn; /* null where there is no pipeline */
     per_vertex_worst written;
-    char at_slant[NUMBER_SIZE + 4]; /* "at any slant" */
+    char at_slant[sizeof(surfaces_text) + 4]; /* "at any slant" */
     double uncertain; /* the nearest depth shown before far whose guarantee is more than is left up to far; NaN: none */
     reached reached;
     in_preset in_preset;
@@ -155,7 +155,7 @@ static void *next_setup(void *of, size_t i) {
     const dp_setup *setup = &t->setup;
     const table_request *o = t->o;
     t->setup = dp_setup_facing(t->each.setup);
-    snprintf(t->at_slant, sizeof t->at_slant, "at %s", slant_words(&t->each.slanted.spec.triangles).text);
+    snprintf(t->at_slant, sizeof t->at_slant, "at %s", surfaces_words(&t->each.slanted.spec.triangles).text);
     range_resolve(t->each.here, &t->lo, &t->hi);
     dp_setup_in(setup, DP_MODEL_EXACT, &t->exact); /* which all mappings have */
     t->uncertain = (double)NAN;

@@ -155,7 +155,7 @@ static void say_head(page *p, void *item) {
     if (c->bounded == 0)
         return;
     const dp_triangles *t = &c->o->camera.triangles;
-    const char *const *words = above_depths[t->width == 0 ? 0 : t->slant_lo < t->slant_hi ? 1 : 2];
+    const char *const *words = above_depths[t->width == 0 ? 0 : surfaces_any_slant(t) ? 1 : 2];
     output_format(p->out, "%s%-*s%*s%*s%s\n", p->soft, c->name_width + (is_sliced(c) ? CODES_WIDTH + PERCENT_WIDTH : 0),
                   width > 20 ? "" : words[2], width,
                   width > 27   ? words[0]

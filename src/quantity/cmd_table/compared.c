@@ -23,7 +23,7 @@ static number_text at_a_slant(const comparison *c) {
     const dp_triangles *t = &c->o->camera.triangles;
     number_text out = {""};
     if (t->width > 0)
-        append(out.text, sizeof out.text, " at %s", slant_words(t).text);
+        append(out.text, sizeof out.text, " at %s", surfaces_words(t).text);
     else
         append(out.text, sizeof out.text, " " SLANT_FACING);
     return out;

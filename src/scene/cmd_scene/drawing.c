@@ -41,8 +41,8 @@ static void describe(const scene *s, const fights_asked *a, chart *c) {
     if (s->eyes.count > 0)
         append(subtitle, sizeof subtitle, ", seen from %s", s->eyes.count > 1 ? "the worst of the eyes" : "the eye");
     else if (s->setup.spec.triangles.width > 0)
-        append(subtitle, sizeof subtitle, ", any slant at %d x %d", s->setup.spec.triangles.width,
-               s->setup.spec.triangles.height);
+        append(subtitle, sizeof subtitle, ", %s at %d x %d", surfaces_words(&s->setup.spec.triangles).text,
+               s->setup.spec.triangles.width, s->setup.spec.triangles.height);
     if (s->unit != NULL)
         append(subtitle, sizeof subtitle, ", lengths in %s", s->unit);
     notes_clean(c->subtitle, sizeof c->subtitle, subtitle);

@@ -57,7 +57,7 @@ void scene_models_take(scene *s) {
     dp_setup setup;
     s->model_count = 0;
     s->decided = (scene_simpler){.model = dp_model_name(s->setup.spec.model),
-                                 .surfaces = s->setup.spec.triangles.width > 0 ? "any slant" : "facing"};
+                                 .surfaces = surfaces_words(&s->setup.spec.triangles)};
     if (s->o.out.full)
         compare(s, &s->setup, &s->decided);
     for (int k = 0; k < DP_MODEL_COUNT; k++) {
@@ -66,13 +66,14 @@ void scene_models_take(scene *s) {
             continue;
         scene_simpler *m = &s->models[s->model_count++];
         m->model = dp_model_name((dp_model)k);
-        m->surfaces = "facing";
+        m->surfaces = surfaces_words(&facing.spec.triangles);
         compare(s, &setup, m);
     }
     dp_spec spec;
     if (s->eyes.count == 0 && camera_assumed(&s->o.camera.said, &s->setup.spec, &spec) &&
         dp_setup_init(&setup, &spec) == DP_OK) {
-        s->slanted = (scene_simpler){.model = dp_model_name(DP_MODEL_FLOAT), .surfaces = "any slant"};
+        s->slanted =
+            (scene_simpler){.model = dp_model_name(DP_MODEL_FLOAT), .surfaces = surfaces_words(&spec.triangles)};
         s->view = spec.triangles;
         setup = dp_setup_guaranteed(&setup);
         compare(s, &setup, &s->slanted);

@@ -29,14 +29,14 @@ static const column bias_columns[] = {{FIELD(scene_bias, api, "api", "")},
 enum { FROM_EYES = 1, REQUIRED = 2, FACING = 4, TIMED = 8 };
 
 static const column model_columns[] = {{FIELD(scene_simpler, model, "model", "")},
-                                       {FIELD(scene_simpler, surfaces, "surfaces", "")},
+                                       {FIELD(scene_simpler, surfaces.text, "surfaces", "")},
                                        {FIELD(scene_simpler, fights, "fights", "")},
                                        {FIELD(scene_simpler, differs, "differs", "")},
                                        {FIELD(scene_simpler, seconds, "seconds", "s"), .when = TIMED},
                                        {.kind = COLUMN_END}};
 
 static const column decided_columns[] = {{FIELD(scene_simpler, model, "model", "")},
-                                         {FIELD(scene_simpler, surfaces, "surfaces", "")},
+                                         {FIELD(scene_simpler, surfaces.text, "surfaces", "")},
                                          {FIELD(scene_simpler, seconds, "seconds", "s")},
                                          {.kind = COLUMN_END}};
 

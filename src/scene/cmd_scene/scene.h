@@ -55,7 +55,8 @@ typedef struct scene_bias {
 
 /* Another model's findings: how many may fight, and how many of them otherwise than was decided. */
 typedef struct scene_simpler {
-    const char *model, *surfaces; /* "facing" or "any slant" */
+    const char *model;
+    surfaces_text surfaces;
     uint64_t fights, differs;
     double seconds; /* with --full: it takes to compare all findings, the least of several turns; else NaN */
 } scene_simpler;

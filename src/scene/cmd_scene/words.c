@@ -132,8 +132,8 @@ static void say_models(page *p, const scene *s) {
         append(said, sizeof said, i == 0 ? "; %s%s differs in %zu%s" : ", %s%s in %zu%s", m->model, which,
                (size_t)m->differs, took(s, m, time));
     }
-    page_text(p, "Decided in %s, %s%s%s.", shader ? "float, of the shader" : s->decided.model,
-              slanted ? "at any slant" : SLANT_FACING, took(s, &s->decided, time), said);
+    page_text(p, "Decided in %s, %s%s%s%s.", shader ? "float, of the shader" : s->decided.model, slanted ? "at " : "",
+              slanted ? s->decided.surfaces.text : SLANT_FACING, took(s, &s->decided, time), said);
 }
 
 void scene_say_head(page *p, void *of) {

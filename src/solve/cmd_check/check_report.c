@@ -38,7 +38,7 @@ typedef struct verdict {
     setup_fields setup;
     slant_fields slant;
     const slant_fields *triangles; /* null where surfaces face the camera */
-    const char *surfaces;
+    surfaces_text surfaces;
     double code;                /* NaN where there is none */
     const char *phrase, *among; /* in a sentence: "separation" ", facing" */
     number_text shown, allowed;
@@ -64,7 +64,7 @@ static const column verdict_columns[] = {
     {FIELD(verdict, found.passed, "passed", "")},
     {FIELD(verdict, said, "verdict", ""), .only = AS_JSON},
     {PART(verdict, biased, "bias", biased_columns), .only = AS_JSON, .pointed = true, .optional = true},
-    {FIELD(verdict, surfaces, "surfaces", "")},
+    {FIELD(verdict, surfaces.text, "surfaces", "")},
     {FIELD(verdict, measured, "measured", ""), .only = AS_JSON, .optional = true},
     {PART(verdict, triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true},
     {.kind = COLUMN_END}};
@@ -73,10 +73,10 @@ static bool is_facing(const check_verdict *v) {
     return !v->sloped && !check_is_slanted(v);
 }
 
-static number_text surfaces(const check_verdict *v) {
+static surfaces_text surfaces(const check_verdict *v) {
     if (v->sloped)
-        return (number_text){"at the slope"};
-    return check_is_slanted(v) ? slant_words(&v->setup.spec.triangles) : (number_text){"facing"};
+        return (surfaces_text){"at the slope"};
+    return check_is_slanted(v) ? surfaces_words(&v->setup.spec.triangles) : (surfaces_text){"facing"};
 }
 
 static biased biased_of(const check_verdict *v) {
@@ -106,9 +106,7 @@ static verdict verdict_of(const check_file *f, const check_verdict *v) {
                      .found = *v,
                      .slant = {v->setup.spec.triangles, v->camera->raster != NULL ? v->camera->raster->name : NULL,
                                dp_arith_get(v->setup.spec.arith)->name},
-                     .surfaces = is_facing(v) ? "facing"
-                                 : v->sloped  ? "at the slope"
-                                              : "any slant",
+                     .surfaces = surfaces(v),
                      .code = isfinite(v->z) ? v->code : (double)NAN,
                      .of_bias = biased_of(v),
                      .phrase = kind->note,
@@ -143,7 +141,7 @@ static const sentence said[] = {
 /* "separation 0.00149 m at 50 m (code 123), facing, allowed 0.001 m"; what is promised is rounded up */
 static const char *sentence_of(const check_file *f, const check_verdict *v, char out[SENTENCE_SIZE]) {
     const page p = {.unit = f->file.unit[0] != '\0' ? f->file.unit : NULL};
-    char among[NUMBER_SIZE + 4] = "";
+    char among[sizeof(surfaces_text) + 2] = "";
     verdict x = verdict_of(f, v);
     if (quantity_get(v->asked->kind)->of_surfaces)
         snprintf(among, sizeof among, ", %s", surfaces(v).text);

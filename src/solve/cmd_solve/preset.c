@@ -73,7 +73,7 @@ static void say(page *p, void *item) {
     camera_page(p, &s->o->camera);
     snprintf(which, sizeof which, "%s %s", s->problem.spec.format.name, dp_mapping_get(s->problem.spec.mapping)->name);
     page_text(p, "%s, %s: a separation of %s%s%s is %s %s %s.", s->preset, which, limit.text, slanted ? " at " : "",
-              slanted ? slant_words(&s->problem.spec.triangles).text : "",
+              slanted ? surfaces_words(&s->problem.spec.triangles).text : "",
               s->problem.spec.model == DP_MODEL_FLOAT ? "guaranteed" : "resolved", where, run);
     if (a->below && a->below_outside)
         page_note(p, "below", "z lies outside near and far");

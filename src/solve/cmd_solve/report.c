@@ -265,7 +265,7 @@ static const char *model_words(const solve_report *r, const solve_candidate *c, 
              shader          ? ", for every log2 that a shader may use"
              : is_slanted(r) ? ", at "
                              : "",
-             !shader && is_slanted(r) ? slant_words(&r->o->camera.triangles).text : "");
+             !shader && is_slanted(r) ? surfaces_words(&r->o->camera.triangles).text : "");
     return out;
 }
 
@@ -343,7 +343,7 @@ void solve_report_answer(page *p, void *item) {
               .effort = mapping->curve != DP_CURVE_PERSPECTIVE ? c->price.effort : NULL,
               .goals = c->solved && c->possible ? "" : "s"};
     if (is_slanted(r)) {
-        snprintf(t.text[0], SENTENCE_SIZE, " at %s", slant_words(&r->o->camera.triangles).text);
+        snprintf(t.text[0], SENTENCE_SIZE, " at %s", surfaces_words(&r->o->camera.triangles).text);
         t.at_slant = t.text[0];
     }
     camera_page(p, &r->o->camera);
