@@ -391,3 +391,81 @@ TEST(lattice_depths) {
     CHECK_REFUSED("table", rows);
     check_says(0, "step", "table --lattice even:.1 --at 1e-6,1");
 }
+
+/* The field of that name of a line of CSV, counted from 0 below the head; "" where no field has the name. */
+static void csv_field(const char *csv, const char *name, int line, char out[64]) {
+    const size_t length = strlen(name);
+    int column = 0;
+    const char *at = csv;
+    out[0] = '\0';
+    while (strncmp(at, name, length) != 0 || strchr(", \r", at[length]) == NULL) {
+        at += strcspn(at, ",\r");
+        if (*at++ == '\r')
+            return;
+        column++;
+    }
+    for (at = csv; line >= 0; line--, at++)
+        assert_non_null(at = strchr(at, '\n'));
+    for (; column > 0; column--)
+        at += strcspn(at, ",") + 1;
+    snprintf(out, 64, "%.*s", (int)strcspn(at, ",\r"), at);
+}
+
+/* A line of CSV says of which of several presets or depth ranges it is, in which unit, and of one alone nothing. */
+TEST(lines_of_several) {
+    static const char *const commands[] = {"table",          "table --full",     "table --at 20", "table --depth 0.05",
+                                           "table --code 7", "table --constants"};
+    static const struct {
+        const char *options;
+        int count;
+    } several[] = {{"--preset unity,unreal", 2},
+                   {"--preset unreal,babylon,unity --unit ft", 3},
+                   {"-f 900 -F d24 -m d3d --depth-range 0:.1,.1:1", 2},
+                   {"-F d16 -m gl --depth-range .1:1,0:.5,0:1", 3},
+                   {"--preset unity", 1},
+                   {"-F d24 -m d3d --depth-range 0:.5", 1}};
+    tally t = {.name = "lines of CSV"};
+    for (size_t c = 0; c < sizeof commands / sizeof commands[0]; c++)
+        for (size_t s = 0; s < sizeof several / sizeof several[0]; s++) {
+            const char *const line = commands[c], *const options = several[s].options;
+            const bool ranges = strstr(options, "range") != NULL, more = several[s].count > 1;
+            char field[64];
+            if (ranges && strstr(line, "constants") != NULL)
+                continue; /* refused */
+            json_t *root = json_printed(0, "%s %s", line, options);
+            printed p = print_of("%s %s --csv", line, options);
+            int count = -1;
+            for (const char *at = p.out; (at = strchr(at, '\n')) != NULL; at++)
+                count++;
+            assert_int_equal(json_array_size(node_at(root, "setups")), several[s].count);
+            for (int k = 0; k < count; k++) {
+                const json_t *setup = node_at(root, "setups[%d]", k * several[s].count / count);
+                csv_field(p.out, "preset", k, field);
+                TALLY(&t, strcmp(field, more && !ranges ? text_at(setup, "preset") : "") == 0, "%s %s: preset %s", line,
+                      options, field);
+                csv_field(p.out, "unit", k, field);
+                TALLY(&t, strcmp(field, more && !ranges ? text_at(setup, "unit") : "") == 0, "%s %s: unit %s", line,
+                      options, field);
+                csv_field(p.out, "depth_range_lo", k, field);
+                const bool part = node_at(setup, "depth_range") != NULL; /* of 0 to 1 nothing is said */
+                TALLY(&t,
+                      more && ranges ? atof(field) == (part ? number_at(setup, "depth_range.lo") : 0.0)
+                                     : field[0] == '\0',
+                      "%s %s: depth_range_lo %s", line, options, field);
+                csv_field(p.out, "depth_range_hi", k, field);
+                TALLY(&t,
+                      more && ranges ? atof(field) == (part ? number_at(setup, "depth_range.hi") : 1.0)
+                                     : field[0] == '\0',
+                      "%s %s: depth_range_hi %s", line, options, field);
+            }
+            printed_free(&p);
+            json_decref(root);
+        }
+    tally_end(&t);
+}
+
+/* What is said of a depth that a shader computes is said of no other. */
+TEST(shaders_are_told) {
+    check_says(0, "guaranteed for every log2", "table -m log -F d24 --range 1:5");
+    check_says(0, "!every log2", "table -m d3d,reversed,gl,gl-reversed,linear -F d24,fp32 --range 1:5 --at 2,3");
+}

@@ -30,7 +30,10 @@ int each_setup_write(each_setup *w, const report_spec *spec, int status) {
     if (status == EXIT_FINE) {
         const bool silent = w->how->quiet || isatty(w->out.fd); /* rows on the same terminal are progress enough */
         w->progress = progress_start("rows", (uint64_t)w->all.count * w->at.count, silent);
-        report_write(spec, &w->out, w->how->form);
+        report_spec of_all = *spec;
+        of_all.when |= (w->camera->range_count > 1 ? (unsigned)EACH_OF_RANGES : 0) |
+                       (w->camera->preset_count > 1 ? (unsigned)EACH_OF_PRESETS : 0);
+        report_write(&of_all, &w->out, w->how->form);
         progress_end(&w->progress);
         status = output_close(&w->out);
         if (status == EXIT_FINE && !w->how->quiet)

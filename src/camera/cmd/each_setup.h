@@ -32,6 +32,19 @@ typedef struct each_setup {
     dp_setup assumed;              /**< and, where none are, of those of camera_assumed(); without a viewport: none */
 } each_setup;
 
+/** Conditions of columns that each_setup_write() knows: several depth ranges, or several presets, were asked about. */
+enum { EACH_OF_RANGES = 1 << 30, EACH_OF_PRESETS = 1 << 29 };
+
+/** What in CSV tells the set-ups of a report apart beside setup_columns: for before the rows, and behind them. */
+#define EACH_RANGE_COLUMNS(type)                                                                                       \
+    {FIELD(type, each.full.spec.depth_range[0], "depth_range_lo", ""), .only = AS_CSV, .when = EACH_OF_RANGES}, {      \
+        FIELD(type, each.full.spec.depth_range[1], "depth_range_hi", ""), .only = AS_CSV, .when = EACH_OF_RANGES       \
+    }
+#define EACH_PRESET_COLUMNS(type)                                                                                      \
+    {FIELD(type, each.fields.preset, "preset", ""), .only = AS_CSV, .when = EACH_OF_PRESETS}, {                        \
+        FIELD(type, each.fields.unit, "unit", ""), .only = AS_CSV, .when = EACH_OF_PRESETS                             \
+    }
+
 /** The guaranteed separation of surfaces, scene units. */
 typedef struct guarantee {
     double facing;

@@ -207,12 +207,10 @@ enum {
     WITH_TOLERANCE = 1,
     WITH_ARITH = 2,
     VERBOSE = 4,
-    WITH_PRESETS = 8,
     WITH_TRIANGLES = 16,
     ONE_CAMERA = 32,
     PER_VERTEX = 64,
-    IN_PRESET = 128,
-    SLICED = 256
+    IN_PRESET = 128
 };
 
 static const column row_columns[] = {
@@ -279,16 +277,14 @@ static const column drawn_columns[] = {
 static const column setup_report[] = {
     {PART(table, each.fields, NULL, setup_columns)},
     {PART(table, each.triangles, "triangles", slant_columns), .only = AS_JSON, .pointed = true, .optional = true,
-     .when = WITH_PRESETS},
+     .when = EACH_OF_PRESETS},
     {FIELD(table, each.fields.arith, "arith", ""), .only = AS_CSV, .when = WITH_ARITH},
-    {FIELD(table, setup.spec.depth_range[0], "depth_range_lo", ""), .only = AS_CSV, .when = SLICED},
-    {FIELD(table, setup.spec.depth_range[1], "depth_range_hi", ""), .only = AS_CSV, .when = SLICED},
+    EACH_RANGE_COLUMNS(table),
     {FIELD(table, interval.name, "method", ""), .only = AS_JSON, .when = WITH_TOLERANCE},
     {FIELD(table, interval.claim, "claim", ""), .digits = 3, .upward = true, .only = AS_JSON, .when = WITH_TOLERANCE},
     {LIST("rows", row_columns, next_row)},
     {FIELD(table, interval.name, "method", ""), .only = AS_CSV, .when = WITH_TOLERANCE},
-    {FIELD(table, each.fields.preset, "preset", ""), .only = AS_CSV, .when = WITH_PRESETS},
-    {FIELD(table, each.fields.unit, "unit", ""), .only = AS_CSV, .when = WITH_PRESETS},
+    EACH_PRESET_COLUMNS(table),
     {FIELD(table, in_preset.parameter, "parameter", ""), .only = AS_JSON, .when = IN_PRESET},
     {LIST("resolved", reach_columns, next_reach), .only = AS_JSON},
     {PART(table, assumed, "assumed", slant_view_columns), .only = AS_JSON, .pointed = true, .optional = true},
@@ -375,15 +371,15 @@ static void *next_shared(void *of, size_t i) {
 static const column columns[] = {{PART(table, each.triangles, "triangles", slant_columns), .only = AS_JSON,
                                   .pointed = true, .optional = true, .when = ONE_CAMERA},
                                  {LIST("setups", setup_report, next_setup), .head = say_reach, .notes = say_notes},
-                                 {LIST("shared", slice_columns, next_shared), .only = AS_JSON, .when = SLICED},
+                                 {LIST("shared", slice_columns, next_shared), .only = AS_JSON, .when = EACH_OF_RANGES},
                                  {.kind = COLUMN_END}};
 
 /* The columns of these set-ups: the variant of arithmetic only where some set-up has that model. */
 static unsigned conditions(const table *t) {
     unsigned when = (option_given(t->o->line, "tolerance") ? WITH_TOLERANCE : 0) | (t->o->out.full ? VERBOSE : 0) |
-                    (t->o->camera.preset_count > 1 ? WITH_PRESETS : ONE_CAMERA) |
+                    (t->o->camera.preset_count > 1 ? 0 : ONE_CAMERA) |
                     (t->each.triangles != NULL ? WITH_TRIANGLES : 0) |
-                    (t->in_preset.parameter != NULL ? IN_PRESET : 0) | (t->o->camera.range_count > 1 ? SLICED : 0);
+                    (t->in_preset.parameter != NULL ? IN_PRESET : 0);
     for (size_t i = 0; i < t->each.all.count; i++) {
         when |= t->each.all.items[i].spec.model == DP_MODEL_FLOAT ? WITH_ARITH : 0;
         when |= per_vertex_matters(&t->each.all.items[i]) ? PER_VERTEX : 0;

@@ -315,8 +315,6 @@ static const column trap_columns[] = {
     {FIELD(constants, trap.right, "right", "")},   {FIELD(constants, trap.source, "source", "")},
     {LIST("rows", reading_columns, next_reading)}, {.kind = COLUMN_END}};
 
-enum { WITH_PRESETS = 1 };
-
 static const column setup_report[] = {
     {FIELD(constants, each.fields.znear, "near", "scene")},
     {FIELD(constants, each.fields.zfar, "far", "scene")},
@@ -334,8 +332,7 @@ static const column setup_report[] = {
     {LIST("corners", corner_columns, next_corner), .only = AS_JSON},
     {LIST("rows", row_columns, next_row), .notes = say_rows},
     {LIST(NULL, stored_columns, next_stored), .only = AS_TEXT, .head = say_stored_head, .notes = say_stored},
-    {FIELD(constants, each.fields.preset, "preset", ""), .only = AS_CSV, .when = WITH_PRESETS},
-    {FIELD(constants, each.fields.unit, "unit", ""), .only = AS_CSV, .when = WITH_PRESETS},
+    EACH_PRESET_COLUMNS(constants),
     {LIST("traps", trap_columns, next_trap), .only = AS_TEXT | AS_JSON, .head = say_trap},
     {.kind = COLUMN_END}};
 
@@ -353,7 +350,6 @@ int constants_write(const table_request *o) {
         status = depths_in_binary32(&c.each.at);
     for (size_t i = 0; i < c.each.all.count && status == EXIT_FINE; i++)
         status = take_view(&c, i);
-    const report_spec spec = {"table", columns, &c, .when = o->camera.preset_count > 1 ? WITH_PRESETS : 0,
-                              .label = LABEL};
+    const report_spec spec = {"table", columns, &c, .label = LABEL};
     return each_setup_write(&c.each, &spec, status);
 }

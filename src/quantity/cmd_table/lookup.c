@@ -73,8 +73,11 @@ static const column row_columns[] = {
     {FIELD(found, cell.width, "interval", "scene"), SHOWN("interval", 9, DIGITS_INTERVAL)},
     {.kind = COLUMN_END}};
 
-static const column setup_report[] = {
-    {PART(lookup, each.fields, NULL, setup_columns)}, {LIST("rows", row_columns, next_row)}, {.kind = COLUMN_END}};
+static const column setup_report[] = {{PART(lookup, each.fields, NULL, setup_columns)},
+                                      EACH_RANGE_COLUMNS(lookup),
+                                      {LIST("rows", row_columns, next_row)},
+                                      EACH_PRESET_COLUMNS(lookup),
+                                      {.kind = COLUMN_END}};
 
 static const column columns[] = {
     {LIST("setups", setup_report, next_setup), .head = each_setup_title, .notes = say_notes}, {.kind = COLUMN_END}};
