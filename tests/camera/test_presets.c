@@ -170,6 +170,7 @@ TEST(test_said) {
     assert_int_equal(preset_length("unity,maplibre:zoom=3"), 5);
     assert_int_equal(preset_length("maplibre:zoom=3,deckgl:zoom=3"), 15);
     assert_int_equal(preset_length("unity"), 5);
+    assert_int_equal(preset_length("maplibre-globe:latitude=40,unity,maplibre-globe:zoom=3,height=8"), 26);
 }
 
 /* The example of a refusal is enough: of all numbers, or of those but the first, which is sought. */

@@ -683,6 +683,7 @@ TEST(test_unreadable) {
         "bias --raster ./%s",
         "plot fight --raster ./%s -o /dev/null --type svg",
     };
+    static const char *const named[] = {"--path", "--at", "--matrix", "--arith", "--raster"};
     static const struct {
         const char *path, *why;
     } files[] = {{"none.json", "No such file or directory"}, {"src/cli", "Is a directory"}};
@@ -694,6 +695,11 @@ TEST(test_unreadable) {
             if (p.status != 3 || strstr(p.errors, files[k].path) == NULL || strstr(p.errors, files[k].why) == NULL ||
                 strchr(p.errors, '\n') != p.errors + strlen(p.errors) - 1 || p.out[0] != '\0')
                 fail_msg("%s: exit status %d, %s", line, p.status, p.errors);
+            for (size_t o = 0; o < sizeof named / sizeof named[0]; o++) {
+                char begins[32];
+                snprintf(begins, sizeof begins, "depthprec: %s: ", named[o]);
+                assert_true(strstr(lines[i], named[o]) == NULL || strncmp(p.errors, begins, strlen(begins)) == 0);
+            }
             printed_free(&p);
         }
     check_says(3, "none.npy: No such file or directory", "judge --pairs none.npy");

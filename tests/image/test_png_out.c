@@ -126,6 +126,41 @@ TEST(meanings) {
     }
 }
 
+/* Normals that a texture holds are written as those that are made of depth. */
+TEST(packed_normals) {
+    static const char *const formats[] = {"", "--normal-format directx"};
+    make("--product pack:depth-normals -q", "held.png", "");
+    for (int f = 0; f < 2; f++) {
+        image codes, numbers;
+        char held[256], path[256];
+        uint64_t none = 0;
+        tally t = {.name = "normals that are held"};
+        snprintf(held, sizeof held, "%s", scratch_file("held.png"));
+        for (int png = 0; png < 2; png++) {
+            snprintf(path, sizeof path, "%s", scratch_file(png ? "n.png" : "n.npy"));
+            check_says(
+                0, png ? f == 0 ? "0 is -1, 65535 is 1, x right, y up" : "0 is -1, 65535 is 1, x right, y down" : "",
+                "texture %s -n 0.5 -f 90 --packing depth-normals --product packed-normal -o %s %s 2>&1", held, path,
+                png ? formats[f] : "");
+        }
+        const size_t count = pair_of("n.png", "n.npy", &codes, &numbers);
+        for (size_t i = 0; i < count; i++) {
+            const double n = (double)((const float *)numbers.data)[i];
+            const double sign = i % 3 == 2 || (i % 3 == 1 && f == 1) ? -1 : 1;
+            const uint16_t code = ((const uint16_t *)codes.data)[i];
+            none += isnan(n) ? 1 : 0;
+            TALLY(&t, isnan(n) ? code == 0 : fabs(code / 65535.0 - (0.5 * sign * n + 0.5)) <= 0.5000001 / 65535,
+                  "sample %zu: %u of %.9g", i, code, n);
+        }
+        assert_true(none > 0 && none < count);
+        assert_int_equal(strncmp(codes.note, "product=normals offset=-1 ", 26), 0);
+        assert_string_equal(strstr(codes.note, " y="), f == 1 ? " y=down" : " y=up");
+        tally_end(&t);
+        image_free(&codes);
+        image_free(&numbers);
+    }
+}
+
 /* An effect is from 0 to 1 whatever there is of it, a vector from -1 to 1, or as is asked; beyond that it is clipped.
  */
 TEST(effects_are_not_stretched) {

@@ -855,3 +855,14 @@ TEST(at_least) {
     print_message("# %d told, %d not\n", told, silent);
     assert_true(told > 0 && silent > 0);
 }
+
+/* A plane that nobody gave is named; one that is given, a preset's or solved for is not. */
+TEST(assumed_planes) {
+#define NEARS "solve --for near --separation 1cm --at 100m -F d24 "
+    check_says(0, "assumed        far inf: not given", NEARS "-m d3d");
+    check_says(0, "!assumed", NEARS "-m d3d -f 1000");
+    check_says(0, "!assumed", NEARS "--preset unity");
+    check_says(0, "!assumed", "solve --for far --separation 1cm --at 10 -F d24 -m d3d -n 0.5");
+    check_says(0, "assumed        near 0.1 m: not given", "solve --for far --separation 1cm --at 10 -F d24 -m d3d");
+#undef NEARS
+}
