@@ -283,3 +283,16 @@ TEST(in_words) {
     assert_true(gap != NULL && gap < strstr(poster, "area"));
     printed_free(&p);
 }
+
+/* What is left out is counted, each by its filter: walls from behind, the glass, what stands in another body, edges that
+ * touch. A filter that is off leaves out nothing. */
+TEST(left_out) {
+    static const char *const also[] = {"", "facing", "blended", "hidden"};
+    for (size_t i = 0; i < sizeof also / sizeof also[0]; i++) {
+        json_t *root = json_printed(-1, "scene " HOUSE " -F d24 -m d3d%s%s", i > 0 ? " --also " : "", also[i]);
+        for (size_t k = 1; k < sizeof also / sizeof also[0]; k++)
+            assert_int_equal(number_at(root, "left_out.%s", also[k]) > 0, i != k);
+        assert_true(number_at(root, "left_out.thin") > 0 && number_at(root, "left_out.degenerate") == 0);
+        json_decref(root);
+    }
+}
