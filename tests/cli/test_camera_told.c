@@ -86,7 +86,6 @@ TEST(words_are_told) {
                                            "table --depth .5",
                                            "bias --at 5 --api gl",
                                            "budget --at 5",
-                                           "prepass",
                                            "plot error --json",
                                            "plot interval --json",
                                            "texture --synthetic plane --size 32x18",

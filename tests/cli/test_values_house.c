@@ -124,6 +124,14 @@ TEST(left_out) {
             fail_msg("'%s' and '%s' with '%s'", harmless[i].a, harmless[i].b, options);
         json_decref(root);
     }
+    static const char *const also[] = {"", "facing", "blended", "hidden"}; /* each is counted but where it is off */
+    for (size_t i = 0; i < sizeof also / sizeof also[0]; i++) {
+        json_t *root = json_printed(-1, "scene " HOUSE " -F d24 -m d3d%s%s", i > 0 ? " --also " : "", also[i]);
+        for (size_t k = 1; k < sizeof also / sizeof also[0]; k++)
+            assert_int_equal(number_at(root, "left_out.%s", also[k]) > 0, i != k);
+        assert_true(number_at(root, "left_out.thin") > 0 && number_at(root, "left_out.degenerate") == 0);
+        json_decref(root);
+    }
 }
 
 /* The lifts that are said, rounded up to tenths of a millimetre, as arguments of the script. */
@@ -282,17 +290,4 @@ TEST(in_words) {
     assert_true(one_plane != NULL && one_plane < strstr(door, "area"));
     assert_true(gap != NULL && gap < strstr(poster, "area"));
     printed_free(&p);
-}
-
-/* What is left out is counted, each by its filter: walls from behind, the glass, what stands in another body, edges that
- * touch. A filter that is off leaves out nothing. */
-TEST(left_out) {
-    static const char *const also[] = {"", "facing", "blended", "hidden"};
-    for (size_t i = 0; i < sizeof also / sizeof also[0]; i++) {
-        json_t *root = json_printed(-1, "scene " HOUSE " -F d24 -m d3d%s%s", i > 0 ? " --also " : "", also[i]);
-        for (size_t k = 1; k < sizeof also / sizeof also[0]; k++)
-            assert_int_equal(number_at(root, "left_out.%s", also[k]) > 0, i != k);
-        assert_true(number_at(root, "left_out.thin") > 0 && number_at(root, "left_out.degenerate") == 0);
-        json_decref(root);
-    }
 }
