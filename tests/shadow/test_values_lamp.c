@@ -325,4 +325,6 @@ TEST(by_hand) {
     check_says(0, "no API biases a depth that a fragment shader writes", "%s", given[5].line);
     check_says(0, "seam", "%s", given[2].line);
     check_says(0, "!seam", "%s --kernel 1", given[2].line);
+    check_says(2, "must lie from near to far, 0.5 to 40, and within 60 octaves and 1e12, got '0.1:50'",
+               "shadow --spot 60 -n 0.5 -f 40 --range 0.1:50");
 }
