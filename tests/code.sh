@@ -334,9 +334,12 @@ check "standard depth is cleared to 1 and compared by LESS" cleared -m d3d
 # One object: its code is what is printed without, and its bounds what that says.
 json() {
     code "$@" >"$scratch/plain" && code "$@" --json >"$scratch/json" && python3 - "$scratch/plain" "$scratch/json" <<'END'
-import json, sys
+import json, re, sys
 plain, said = open(sys.argv[1]).read(), json.load(open(sys.argv[2]))
 print(said)
+told = [float(n) for n in re.findall(r"(?:off|and \w+) by at most ([0-9.e-]*[0-9])", plain.replace("\n// ", " "))]
+assert len(told) == len(said["bounds"]) > 0, told # each is rounded up
+assert all(c["bound"] <= n <= 1.005 * c["bound"] for n, c in zip(told, said["bounds"])), told
 assert said["code"] == plain and f'Clear depth to {said["clear"]};' in plain.replace("\n// ", " ") or said["what"] in ("pack", "normal")
 assert said["rules"] + "." in plain.replace("\n// ", " ") or said["what"] == "projection"
 assert said["comparison"] == ("greater" if said["clear"] == 0 else "less") and said["source"]
