@@ -83,6 +83,18 @@ static double draw_amount(rng *r, const remedy *row, double least) {
     return fmin(fmax(x, row->least), row->most);
 }
 
+/* The largest push between two depths: it grows, or grows and falls. */
+static double pushed_most(const dp_setup *setup, const remedy *row, double x, double lo, double hi) {
+    double most = fmax(-remedy_at(setup, row, x, lo).shift, -remedy_at(setup, row, x, hi).shift);
+    for (int i = 0; i < 100; i++) {
+        const double a = lo + (hi - lo) / 3.0, b = hi - (hi - lo) / 3.0;
+        const double at_a = -remedy_at(setup, row, x, a).shift, at_b = -remedy_at(setup, row, x, b).shift;
+        most = fmax(most, fmax(at_a, at_b));
+        *(at_a < at_b ? &lo : &hi) = at_a < at_b ? a : b;
+    }
+    return most;
+}
+
 TEST(random_remedies) {
     rng r = rng_make("bias remedies");
     tally enough = {.name = "enough"}, witness = {.name = "not enough"}, worth = {.name = "worth"};
@@ -129,6 +141,9 @@ TEST(random_remedies) {
         const bias_push push = remedy_push(&setup, row, x, lo, hi);
         TALLY(&worth, -remedy_at(&setup, row, x, z).shift <= push.shift * (1.0 + 1e-9) + 1e-300,
               "%s: %.17g at %.17g is more than %.17g", row->name, -remedy_at(&setup, row, x, z).shift, z, push.shift);
+        const double most = i % 2 == 0 ? pushed_most(&setup, row, x, lo, hi) : push.shift;
+        TALLY(&worth, most <= push.shift * (1.0 + 1e-9) + 1e-300 && most >= push.shift * (1.0 - 1e-9),
+              "%s: at most %.17g, not %.17g", row->name, push.shift, most);
     }
     for (size_t i = 0; i + 1 < remedy_table.count; i++) {
         print_message("# %s: %llu enough, %llu not, %llu not proven\n", remedy_get(i)->name,

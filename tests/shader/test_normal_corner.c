@@ -77,12 +77,32 @@ static double share_without_cells(tally *t, const texture_camera *c, const norma
     return bound < 1 ? angle / bound : 0;
 }
 
+/* The bound where one place alone may lie anywhere within its reach, at either end of it. */
+static double share_of_one(tally *t, const texture_camera *c, const normal_row *method, const normal_tap at[3], int one,
+                           const double found[3]) {
+    double most = 0;
+    for (int end = -1; end <= 1; end += 2) {
+        normal_tap taps[3];
+        double z[3], truth[3];
+        for (int i = 0; i < 3; i++) {
+            taps[i] = (normal_tap){at[i].column, at[i].row, at[i].stored, i == one ? at[i].reach : 0};
+            z[i] = at[i].stored + end * taps[i].reach;
+        }
+        normal_through(c, taps, z, truth);
+        const double bound = normal_corner_bound(c, method, taps, DP_BATCH_EYE_ERROR);
+        const double angle = normal_angle(found, truth);
+        TALLY(t, angle <= bound, "%s, tap %d alone: off by %.9g, not %.9g", method->name, one, angle, bound);
+        most = bound < 1 ? fmax(most, angle / bound) : most;
+    }
+    return most;
+}
+
 TEST(no_true_plane_is_farther_off) {
     static const struct {
         const char *format;
         dp_mapping mapping;
     } kinds[] = {{"unorm16", DP_MAPPING_REVERSED}, {"unorm24", DP_MAPPING_D3D}, {"fp32", DP_MAPPING_REVERSED}};
-    double share[NORMAL_METHODS][2] = {{0}}, lost[NORMAL_METHODS][2] = {{0}};
+    double share[NORMAL_METHODS][2] = {{0}}, lost[NORMAL_METHODS][2] = {{0}}, ones[3] = {0};
     rng r = rng_make("normal corner");
     tally t = {.name = "corners"};
     for (uint64_t n = test_cases(10000, 30000, 300000); n > 0; n--) {
@@ -115,9 +135,13 @@ TEST(no_true_plane_is_farther_off) {
             }
             if (!isnan(found[0]))
                 lost[m][ortho] = fmax(lost[m][ortho], share_without_cells(&t, &c, method, taps, found));
+            for (int i = 0; i < 3 && !isnan(found[0]); i++)
+                ones[i] = fmax(ones[i], share_of_one(&t, &c, method, taps, i, found));
         }
         view_picture_free(&p);
     }
+    print_message("# of one place: %.3f, %.3f and %.3f of the bound\n", ones[0], ones[1], ones[2]);
+    assert_true(ones[0] > 0.95 && ones[1] > 0.95 && ones[2] > 0.95);
     for (size_t m = 0; m < NORMAL_METHODS; m++)
         if (m != NORMAL_PROJECTIVE) {
             const double least = normal_get(m)->half ? 0.15 : 0.025;
