@@ -179,6 +179,43 @@ TEST(test_right) {
     tally_end(&found);
 }
 
+/* Orthographic planes are found from what is read and what is written: from window depth and to it, of either sign of
+ * the axis, in either direction. */
+TEST(test_orthographic_planes) {
+    tally t = {.name = "orthographic planes"};
+    rng r = rng_make("orthographic planes");
+    for (uint64_t i = test_cases(100, 400, 4000); i > 0; i--) {
+        const float n = (float)rng_log(&r, 0.01, 10), f = n + (float)rng_log(&r, 1, 1e4);
+        const bool encodes = rng_below(&r, 2), minus = rng_below(&r, 2), turned = rng_below(&r, 2);
+        judge_pairs p = {.pairs = pair_room, .count = PAIRS, .distinct = PAIRS};
+        for (int k = 0; k < PAIRS; k++) {
+            const float share = (float)((k + rng_unit(&r)) / PAIRS), d = turned ? 1 - share : share;
+            const float z = n + share * (f - n), eye = minus ? -z : z;
+            const bool from_last = encodes ? minus : turned; /* sorted by what is read */
+            p.pairs[from_last ? PAIRS - 1 - k : k] =
+                encodes ? (judge_pair){(double)eye, (double)(turned ? (f - z) / (f - n) : (z - n) / (f - n))}
+                        : (judge_pair){(double)d, (double)eye};
+        }
+        dp_spec spec = dp_spec_default();
+        dp_setup setup;
+        spec.ortho = 1;
+        spec.znear = 0.3;
+        spec.zfar = 70;
+        spec.mapping = turned ? DP_MAPPING_REVERSED : DP_MAPPING_D3D;
+        assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+        judgement j;
+        judge_function(&p, &setup, 1, JUDGE_OPEN, &j);
+        const dp_spec *found = &j.found.setup.spec;
+        TALLY(&t,
+              j.named && found->ortho && fabs(found->znear - (double)n) < 1e-4 * (double)f &&
+                  fabs(found->zfar / (double)f - 1) < 1e-4,
+              "near %g, far %g, %s%s%s: %s, %g, %g", (double)n, (double)f, encodes ? "written" : "read",
+              minus ? ", behind" : "", turned ? ", reversed" : "", judge_verdict_name(j.verdict),
+              j.named ? found->znear : 0, j.named ? found->zfar : 0);
+    }
+    tally_end(&t);
+}
+
 /* One plane is given: what agrees with it is right and has the other plane; a plane that does not agree is another. */
 TEST(test_one_plane_given) {
     tally t = {.name = "one plane given"};
@@ -388,13 +425,18 @@ TEST(test_precision) {
     static const struct {
         const char *line;
         judge_precision precision;
-    } prints[] = {{"%.9g,%.9g\n", JUDGE_BINARY32}, {"%.9g\t%.6g\n", JUDGE_PRINTED}, {"%.6f; %.4f\n", JUDGE_PRINTED}};
+    } prints[] = {{"%.9g,%.9g\n", JUDGE_BINARY32},
+                  {"%.9g\t%.6g\n", JUDGE_PRINTED},
+                  {"%.6f; %.4f\n", JUDGE_PRINTED},
+                  {"%.9g,%.3e\n", JUDGE_PRINTED},
+                  {"%.9g,%.2e\n", JUDGE_PRINTED}};
     const double n = 0.1, f = 1000;
     const dp_setup setup = camera(n, f, DP_MAPPING_D3D);
     char error[PAIRS_ERROR_SIZE], path[] = "/tmp/depthprec-judge-XXXXXX";
     const int file = mkstemp(path);
     assert_true(file >= 0);
-    for (int i = 0; i < 5; i++) {
+    enum { PRINTS = sizeof prints / sizeof prints[0], HALVES = PRINTS, BYTES };
+    for (int i = 0; i <= BYTES; i++) {
         FILE *out = fopen(path, "w");
         judge_pairs p;
         judgement j;
@@ -403,9 +445,12 @@ TEST(test_precision) {
         for (int k = 0; k <= 64; k++) {
             const double d = k / 64.0, z = n * f / (f - d * (f - n)), share = z / f;
             const double byte = rint(share * 255) / 255;
-            const double v = i == 3 ? half_of_normal(z) : i == 4 ? byte : (double)(float)z, truth = i == 4 ? share : z;
-            fprintf(out, i < 3 ? prints[i].line : "%.9g,%.17g\n", d, v);
-            if (i == 3 && fabs(v - truth) > worst * truth) {
+            const double v = i == HALVES  ? half_of_normal(z)
+                             : i == BYTES ? byte
+                                          : (double)(float)z,
+                         truth = i == BYTES ? share : z;
+            fprintf(out, i < PRINTS ? prints[i].line : "%.9g,%.17g\n", d, v);
+            if (i == HALVES && fabs(v - truth) > worst * truth) {
                 worst = fabs(v - truth) / truth;
                 at = d;
             }
@@ -415,8 +460,8 @@ TEST(test_precision) {
         assert_true(p.count == 65 && p.distinct == 65 && p.nan_count == 0);
         judge_function(&p, &setup, 1, JUDGE_OPEN_NONE, &j);
         assert_int_equal(j.verdict, JUDGE_RIGHT);
-        assert_int_equal(j.precision, i < 3 ? prints[i].precision : i == 3 ? JUDGE_BINARY16 : JUDGE_BYTES);
-        if (i == 3) {
+        assert_int_equal(j.precision, i < PRINTS ? prints[i].precision : i == HALVES ? JUDGE_BINARY16 : JUDGE_BYTES);
+        if (i == HALVES) {
             assert_relative(j.error, worst, 1e-9);
             assert_true(j.at == at);
         }
