@@ -307,6 +307,18 @@ TEST(a_lattice_is_said) {
             assert_scene((double)map[i], far, 1e-5 * far + 2e-7 * z[i]);
             assert_true((double)map[i] >= far);
         }
+        /* on the other side what was cut off the file's numbers does not count, nor that of binary16 */
+        const char *const again = strchr(said[k].words, '@');
+        const double end = z[0] - 0.5 * (0.001 + (again != NULL ? atof(again + 1) : 0));
+        const double near =
+            said[k].inverse ? 1 / (1 / end + step) : end - (said[k].half ? 0.5 * ldexp(1, ilogb(end) - 10) : step);
+        truth_add(&c, "--pixel");
+        truth_add(&c, "0,0");
+        root = statistics(&c);
+        const json_t *pixel = json_array_get(json_object_get(root, "pixels"), 0);
+        assert_scene(number_in(pixel, "lo"), near, 1e-5 * z[0]);
+        assert_true(number_in(pixel, "lo") <= near * (1 + 1e-14) && number_in(pixel, "hi") > z[0]);
+        json_decref(root);
     }
 }
 
