@@ -59,6 +59,15 @@ static void check_family(const char *name) {
             if (family->magnitudes || r->ratio[k] <= c->ratio_hi * (1 + 1e-9))
                 TALLY(&t, r->error[k] <= method_claim_at(c, r->ratio[k]), "%s, %s: error %g above %g at far/near %g",
                       r->row->name, where, r->error[k], method_claim_at(c, r->ratio[k]), r->ratio[k]);
+        /* What is said to be the worst is that of all that is claimed, both ends included. */
+        for (int k = 0; k < r->steps && !isnan(c->worst); k++)
+            if (family->magnitudes ||
+                (r->ratio[k] >= c->ratio_lo * (1 - 1e-9) && r->ratio[k] <= c->ratio_hi * (1 + 1e-9)))
+                TALLY(&t,
+                      r->error[k] * r->claim <=
+                          r->inside * method_claim_at(c, fmin(r->ratio[k], c->ratio_hi)) * (1 + 1e-9),
+                      "%s, %s: the worst is %g of %g, and %g of %g at %g", r->row->name, where, r->inside, r->claim,
+                      r->error[k], method_claim_at(c, r->ratio[k]), r->ratio[k]);
         /* A formula is near the error all the way, not at its best place alone. */
         for (int k = 0; k < r->steps && c->formula != NULL && r->ratio[k] <= c->ratio_hi; k++)
             if ((r->row->domain & (METHOD_PIPELINE | METHOD_BELOW)) == 0)
