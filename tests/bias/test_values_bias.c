@@ -31,6 +31,9 @@ static const char *const lines[] = {
     "--at 0.1,3,40,555,7e3,9e4",
     "bias --api vulkan-float -n 1 -f 200 -F unorm24 -m log --log-c 3 --separation 3 --range 2:150 "
     "--at 1,2,30,90,150,199",
+    /* Of drivers that take the greater exponent, coplanar and apart. */
+    "bias --api vulkan -n 0.1 -f inf -F fp32 -m reversed --separation 0.001 --range 1:10 --at 1,2,3,5,8,10",
+    "bias --api gl -n 0.1 -f 1000 -F fp32 -m reversed --slope 1e-4 --separation 0.01 --range 1:10 --at 1,2,3,5,8,10",
     /* Where a bias is enough: up to short of the far plane, whose depth is 0; and from beyond the near plane. */
     "bias --api metal -n 0.1 -f 1000 -F fp32 -m reversed --slope 0.01 --separation 0.02 --range 0.1:1000 "
     "--at 0.3,1,3,20,45,60",
