@@ -503,8 +503,8 @@ TEST(any_planes) {
             continue;
         const bool promised = p.guaranteed <= draw_picture_widest(&p);
         const double gap = promised ? p.guaranteed : draw_picture_widest(&p);
-        TALLY(&y, fabs(draw_picture_widest(&p) / (p.z * p.scale) - 0.1) < 1e-12, "near %g, far %g: widest gap %g", znear,
-              zfar, draw_picture_widest(&p));
+        TALLY(&y, fabs(draw_picture_widest(&p) / (p.z * p.scale) - 0.1) < 1e-12, "near %g, far %g: widest gap %g",
+              znear, zfar, draw_picture_widest(&p));
         const draw_picture_count count = draw_picture_frame(&p, gap, (unsigned)i, false, NULL);
         TALLY(&y, 0.54 * p.z >= znear && 1.6 * p.z <= zfar && count.covered > 20000,
               "near %g, far %g: at %g, %zu pixels", znear, zfar, p.z, count.covered);

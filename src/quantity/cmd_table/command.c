@@ -378,8 +378,7 @@ static const column columns[] = {{PART(table, each.triangles, "triangles", slant
 static unsigned conditions(const table *t) {
     unsigned when = (option_given(t->o->line, "tolerance") ? WITH_TOLERANCE : 0) | (t->o->out.full ? VERBOSE : 0) |
                     (t->o->camera.preset_count > 1 ? 0 : ONE_CAMERA) |
-                    (t->each.triangles != NULL ? WITH_TRIANGLES : 0) |
-                    (t->in_preset.parameter != NULL ? IN_PRESET : 0);
+                    (t->each.triangles != NULL ? WITH_TRIANGLES : 0) | (t->in_preset.parameter != NULL ? IN_PRESET : 0);
     for (size_t i = 0; i < t->each.all.count; i++) {
         when |= t->each.all.items[i].spec.model == DP_MODEL_FLOAT ? WITH_ARITH : 0;
         when |= per_vertex_matters(&t->each.all.items[i]) ? PER_VERTEX : 0;
