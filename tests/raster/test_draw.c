@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "raster/draw_class.h"
 #include "raster/mesh.h"
 #include "raster_named.h"
 
@@ -67,6 +68,42 @@ TEST(depths_that_need_the_remap) {
         assert_int_equal(draw_camera_init(&s.camera, raster_find("llvmpipe"), &s.setup),
                          mapping->ndc_signed ? RASTER_MODEL : RASTER_OK);
     }
+}
+
+/* Without a rasterizer a vertex is rounded to the nearest place of the grid, whichever side that is on. */
+TEST(vertices_on_the_grid) {
+    tally t = {.name = "places on the grid"};
+    rng r = rng_make("places on the grid");
+    double most[2] = {0};
+    for (uint64_t n = test_cases(300, 3000, 30000); n > 0; n--) {
+        scene s;
+        raster_triangle drawn;
+        double place[3][3];
+        assert_int_equal(try_scene(&s, "llvmpipe", "unorm24", DP_MAPPING_REVERSED), RASTER_OK);
+        s.setup.spec.triangles.subpixel = 4 + (int)rng_below(&r, 5);
+        assert_int_equal(draw_class_init(&s.camera, &s.setup), RASTER_OK);
+        for (int i = 0; i < 3; i++) {
+            place[i][2] = rng_log(&r, 0.2, 40.0);
+            place[i][0] = rng_uniform(&r, -0.9, 0.9) * place[i][2] / (double)s.p00;
+            place[i][1] = rng_uniform(&r, -0.9, 0.9) * place[i][2] / (double)s.p11;
+        }
+        if (draw_class_set_up(&s.camera, (const double(*)[3])place, &drawn) != RASTER_OK)
+            continue;
+        const raster_piece *piece = &drawn.piece[0];
+        const double step = ldexp(1.0, -piece->bits);
+        TALLY(&t, piece->bits == s.setup.spec.triangles.subpixel, "%d bits", piece->bits);
+        for (int i = 0; i < 3; i++) {
+            const double x = 0.5 * WIDTH * (1.0 + (double)s.p00 * place[i][0] / place[i][2]) - 0.5;
+            const double y = 0.5 * HEIGHT * (1.0 + (double)s.p11 * place[i][1] / place[i][2]) - 0.5;
+            const double off[2] = {(piece->x[i] * step - x) / step, (piece->y[i] * step - y) / step};
+            for (int k = 0; k < 2; k++) {
+                TALLY(&t, fabs(off[k]) <= 0.5 + 3e-5 / step, "off by %g of %d bits", off[k], piece->bits);
+                most[off[k] < 0.0] = fmax(most[off[k] < 0.0], fabs(off[k]));
+            }
+        }
+    }
+    assert_true(most[0] > 0.45 && most[1] > 0.45);
+    tally_end(&t);
 }
 
 /* ---- Every pixel by itself --------------------------------------------------------------------------------------- */
