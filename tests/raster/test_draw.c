@@ -322,6 +322,14 @@ static bool belongs(const scene *s, const draw_plane *plane, const double v[3][2
     return in;
 }
 
+/* How high a triangle is that lies on its longest edge. */
+static double height_upon_longest(const double v[3][2]) {
+    double longest = 0.0;
+    for (int i = 0; i < 3; i++)
+        longest = fmax(longest, hypot(v[(i + 1) % 3][0] - v[i][0], v[(i + 1) % 3][1] - v[i][1]));
+    return 2.0 * area_of(v) / longest;
+}
+
 /* Without a class every triangle of the view is drawn, with one those that belong to it. */
 TEST(meshes) {
     tally t = {.name = "triangles of meshes"};
@@ -339,7 +347,7 @@ TEST(meshes) {
                           {{wide, rng_uniform(&r, -1, 1)}, {rng_uniform(&r, -1, 1), high}},
                           {4, 4},
                           rng_next(&r),
-                          0.0};
+                          rng_below(&r, 2) == 0 ? 0.0 : high * rng_uniform(&r, 0.5, 1.1)};
         dp_triangles class = s.setup.spec.triangles;
         class.pixels = rng_log(&r, 3.0, 60.0);
         class.slim = rng_log(&r, 2.0, 30.0);
@@ -350,7 +358,9 @@ TEST(meshes) {
             double v[3][2];
             bool either;
             draw_mesh_corners(&mesh, i / 8, i / 2 % 4, i % 2, v);
-            const bool in = belongs(&s, &plane, (const double(*)[2])v, &class, &either);
+            const double upon = height_upon_longest((const double(*)[2])v);
+            const bool in = belongs(&s, &plane, (const double(*)[2])v, &class, &either) && upon >= mesh.lowest;
+            either = (either && upon >= mesh.lowest) || fabs(upon - mesh.lowest) < 1e-9 * upon;
             least += in && !either && area_of((const double(*)[2])v) > 8.0;
             most += in || either;
             area += area_of((const double(*)[2])v);
