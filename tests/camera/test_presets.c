@@ -59,6 +59,9 @@ TEST(test_computed) {
         /* pixels of MapLibre 6.17 at .313177773185179 pixels of a metre */
         {"maplibre:zoom=14,pitch=60,latitude=48,height=800", 16 / .313177773185179,
          2867.6227893867376 / .313177773185179, 1200 / .313177773185179},
+        /* of a camera less than 100 m above the ground, in metres */
+        {"maplibre:zoom=21.07,pitch=82.874,latitude=-55.207,height=844,fov=44.308", 0.34208213280176064,
+         5427.841405360067, 21.0043554326895},
         {"maplibre-globe:zoom=14,pitch=60,latitude=48,height=800", .5 / .313177773185179,
          3991716.697854359 / .313177773185179, 1200 / .313177773185179},
         /* heights of deck.gl's screen, 800 pixels of 40.03e6/512/1024 m; looking to the horizon far is held to 10 times
