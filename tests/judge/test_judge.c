@@ -179,6 +179,31 @@ TEST(test_right) {
     tally_end(&found);
 }
 
+/* In front of near a window depth may be clamped to its range: that is right, and loses nothing; the other end is not.
+ */
+TEST(test_clamped) {
+    for (int way = 0; way < 4; way++) {
+        const bool turned = way % 2 == 1, other = way / 2 == 1;
+        const float n = 0.25F, f = 90;
+        judge_pairs p = {.pairs = pair_room, .count = PAIRS, .distinct = PAIRS};
+        const dp_setup setup = camera((double)n, (double)f, turned ? DP_MAPPING_REVERSED : DP_MAPPING_D3D);
+        judgement j;
+        int beyond = 0;
+        for (int k = 0; k < PAIRS; k++) {
+            const float z = n * (0.3F + 4 * ((float)k + 0.5F) / PAIRS);
+            const float d = turned ? stored_reversed(z, n, f) : stored(z, n, f), held = fminf(fmaxf(d, 0), 1);
+            const bool out = d != held;
+            p.pairs[k] = (judge_pair){(double)z, (double)(out && other ? 1 - held : held)};
+            beyond += out;
+        }
+        assert_true(beyond > 3 && beyond < PAIRS / 2);
+        judge_function(&p, &setup, 1, JUDGE_OPEN_NONE, &j);
+        if ((j.verdict == JUDGE_RIGHT) == other || (!other && j.off > 0x1p-20))
+            fail_msg("%s, %s: %s, off by %g", turned ? "reversed" : "d3d", other ? "at the other end" : "clamped",
+                     judge_verdict_name(j.verdict), j.off);
+    }
+}
+
 /* Orthographic planes are found from what is read and what is written: from window depth and to it, of either sign of
  * the axis, in either direction. */
 TEST(test_orthographic_planes) {
