@@ -159,13 +159,12 @@ static void read_sheet(char *csv, sheet *out) {
     }
 }
 
-/* The value of a series at a place of a panel, which has one line. */
-static double sheet_cell(const sheet *s, const char *panel, double x, const char *series) {
-    const size_t length = strlen(series);
+/* The value of a series, in its axis' unit, at a place of a panel, which has one line. */
+static double sheet_cell(const sheet *s, const char *panel, double x, const char *series, const char *unit) {
+    char head[128];
     size_t column = s->places + 1, found = SHEET_ROWS;
-    while (column < s->columns &&
-           (strncmp(s->heads[column], series, length) != 0 ||
-            (s->heads[column][length] != '\0' && strncmp(s->heads[column] + length, " [", 2) != 0)))
+    snprintf(head, sizeof head, unit[0] != '\0' ? "%s [%s]" : "%s", series, unit);
+    while (column < s->columns && strcmp(s->heads[column], head) != 0)
         column++;
     assert_true(column < s->columns);
     for (size_t i = 0; i < s->rows; i++)
@@ -193,11 +192,12 @@ static void check_sheet(const json_t *root, char *csv) {
         json_array_foreach(json_object_get(panel, "series"), k, series) {
             json_array_foreach(json_object_get(series, "points"), i, point) {
                 const char *const y_key = text_of(json_object_get(root, "y"), "key");
-                const char *const key =
-                    json_object_get(point, y_key) != NULL ? y_key : text_of(json_object_get(root, "second"), "key");
+                const json_t *const axis =
+                    json_object_get(root, json_object_get(point, y_key) != NULL ? "y" : "second");
+                const char *const key = text_of(axis, "key");
                 const json_t *value = json_object_get(point, key);
                 const double got = sheet_cell(&s, s.places == 1 ? text_of(panel, "title") : "", number_of(point, x),
-                                              text_of(series, "name"));
+                                              text_of(series, "name"), text_of(axis, "unit"));
                 assert_true(json_is_null(value) ? isinf(got) : got == number_of(point, key));
                 shown++;
             }

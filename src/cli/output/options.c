@@ -72,11 +72,23 @@ static const char *ending_of_picture(const char *path) {
     return NULL;
 }
 
-int output_start(const output_asked *o, const camera_asked *camera, output *out) {
+static int refuse_picture(const output_asked *o) {
     const char *ending = o->file != NULL ? ending_of_picture(o->file) : NULL;
-    if (ending != NULL)
-        return option_error("output", "must not end in %s where no picture is written, got '%s'", ending, o->file);
-    const int status = output_open(out, o->file);
+    return ending == NULL
+               ? EXIT_FINE
+               : option_error("output", "must not end in %s where no picture is written, got '%s'", ending, o->file);
+}
+
+int output_ready(const output_asked *o) {
+    const int status = refuse_picture(o);
+    return status == EXIT_FINE && o->file != NULL && strcmp(o->file, "-") != 0 ? output_check(o->file) : status;
+}
+
+int output_start(const output_asked *o, const camera_asked *camera, output *out) {
+    int status = refuse_picture(o);
+    if (status != EXIT_FINE)
+        return status;
+    status = output_open(out, o->file);
     out->width = o->full ? OUTPUT_UNLIMITED : 0;
     out->colour = (output_colour)o->colour;
     out->measured = camera != NULL && camera->gpu.measured[0] != '\0' ? camera->gpu.measured : NULL;

@@ -25,6 +25,9 @@ extern const option_table output_options;
 /** The options that a report takes. */
 extern const option_use output_written[];
 
+/** For what takes long before output_start(): whether that would open its file, which stays as it is. @return as it */
+int output_ready(const output_asked *o);
+
 /** Opens what --output names, which is no picture's, for text, JSON or CSV, as wide as --full makes it, as --color
  * wants it dressed; the camera, which may be null, says whose measurements they are. @return EXIT_FINE, or EXIT_USAGE
  * or EXIT_IO after one line on stderr */

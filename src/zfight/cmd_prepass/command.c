@@ -232,6 +232,8 @@ int cmd_prepass(void *request) {
         a.request.other[i] = o->against[i];
     int status = check(&a);
     if (status == EXIT_FINE)
+        status = output_ready(&o->out);
+    if (status == EXIT_FINE)
         status = work(&a);
     status = each_setup_write(&a.each, &(report_spec){"prepass", columns, &a, .label = 14}, status);
     free(a.results);

@@ -258,6 +258,8 @@ int prepass_stored(const prepass_request *o) {
     if (status == EXIT_FINE)
         status = range_resolve(&o->camera, &a.lo, &a.hi);
     if (status == EXIT_FINE)
+        status = output_ready(&o->out);
+    if (status == EXIT_FINE)
         status = work(&a);
     status = each_setup_write(&a.each, &(report_spec){"prepass", columns, &a, .label = 14}, status);
     free(a.lines);
