@@ -486,6 +486,41 @@ TEST(tiff_apart) {
     image_free(&img);
 }
 
+/* Two tiles of 16 x 16, which reach beyond the picture on the right and below. */
+TEST(tiff_tiles) {
+    enum { SIDE = 16, BYTES = SIDE * SIDE * 2, HEAD = 8 };
+    static const uint32_t entries[][4] = {/* tag, type, and one value or two */
+                                          {256, 3, ACROSS, 0},    {257, 3, DOWN, 0}, {258, 3, 16, 0},
+                                          {259, 3, 1, 0},         {262, 3, 1, 0},    {277, 3, 1, 0},
+                                          {322, 3, SIDE, 0},      {323, 3, SIDE, 0}, {324, 3, HEAD, HEAD + BYTES},
+                                          {325, 3, BYTES, BYTES}, {339, 3, 1, 0}};
+    handmade h = {.size = 0};
+    image img;
+    image_error error;
+    if (!tiff_is_read())
+        skip();
+    handmade_text(&h, "II");
+    handmade_number(&h, 42, 2, 1);
+    handmade_number(&h, HEAD + 2 * BYTES, 4, 1);
+    for (size_t tile = 0; tile < 2; tile++)
+        for (size_t y = 0; y < SIDE; y++)
+            for (size_t x = tile * SIDE; x < (tile + 1) * SIDE; x++)
+                handmade_number(&h, x < ACROSS && y < DOWN ? bits_of(IMAGE_U16, y * ACROSS + x) : 0xEEEE, 2, 1);
+    handmade_number(&h, sizeof entries / sizeof entries[0], 2, 1);
+    for (size_t i = 0; i < sizeof entries / sizeof entries[0]; i++) {
+        handmade_number(&h, entries[i][0], 2, 1);
+        handmade_number(&h, entries[i][1], 2, 1);
+        handmade_number(&h, entries[i][3] > 0 ? 2 : 1, 4, 1);
+        handmade_number(&h, entries[i][2], 2, 1);
+        handmade_number(&h, entries[i][3], 2, 1);
+    }
+    handmade_number(&h, 0, 4, 1);
+    if (!image_parse(h.at, h.size, &img, &error))
+        fail_msg("%s", error.text);
+    assert_bits(&img, IMAGE_U16, 0);
+    image_free(&img);
+}
+
 /* Rows of bytes as they are. */
 static void pack_bits(handmade *to, const handmade *from) {
     const size_t row = from->size / DOWN; /* at most 128 */
