@@ -110,6 +110,28 @@ TEST(orthographic) {
     ACCEPT(spec.ortho = -1);
 }
 
+/* What a refusal recommends is accepted, and it leaves out nothing that is. */
+TEST(mappings_that_are_named) {
+    static const dp_status refused[] = {DP_ERROR_ORTHO, DP_ERROR_INFINITE, DP_ERROR_WINDOW};
+    for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++)
+        for (int m = 0; m < DP_MAPPING_COUNT; m++) {
+            const char *const name = dp_mapping_get((dp_mapping)m)->name, *const text = dp_status_text(refused[i]);
+            dp_spec spec = dp_spec_default();
+            dp_setup setup;
+            bool named = false;
+            spec.mapping = (dp_mapping)m;
+            spec.ortho = refused[i] == DP_ERROR_ORTHO;
+            spec.zfar = refused[i] == DP_ERROR_INFINITE ? (double)INFINITY : 1000;
+            spec.depth_range[1] = refused[i] == DP_ERROR_WINDOW ? 0.5 : 1;
+            for (const char *at = text; (at = strstr(at, name)) != NULL; at++)
+                named = named || (at[-1] == ' ' && strchr(",", at[strlen(name)]) != NULL);
+            const dp_status status = dp_setup_init(&setup, &spec);
+            assert_true(status == DP_OK || status == refused[i]);
+            if (named != (status == DP_OK))
+                fail_msg("%s is %snamed in: %s", name, named ? "" : "not ", text);
+        }
+}
+
 /* Near and far of an orthographic camera: 0 or of either sign, but not so small that exact products lose bits. */
 TEST(orthographic_planes) {
     static const double near_bad[] = {-INFINITY, INFINITY, NAN, 1e-13, -1e-13, 0x1p-1074, -0x1p-1074, -1.1e12, 1.1e12};
