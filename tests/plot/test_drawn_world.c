@@ -42,6 +42,30 @@ static void check_panel(const drawn *d, const drawn_panel *p, const world_asked 
     }
 }
 
+/* Each point is what is lost at its distance, or the most up to the next. */
+static void check_points(const char *options, const world_asked *a, double metre) {
+    static world_loss *const losses[] = {world_separation, world_jitter};
+    json_t *root = json_printed(0, "plot world %s", options);
+    size_t i, points = 0;
+    for (int p = 0; p < 2; p++)
+        for (size_t k = 0; k < WORLD_ROWS; k++) {
+            const world_row *row = world_get(k);
+            const world_scheme scheme = {row, row->metres ? row->standard * metre : row->standard};
+            const json_t *point, *list = node_at(root, "panels[%d].series[%zu].points", p, k);
+            assert_int_equal(strncmp(text_at(root, "panels[%d].series[%zu].name", p, k), row->name, strlen(row->name)),
+                             0);
+            json_array_foreach(list, i, point) {
+                const double z = number_at(point, "distance"), is = losses[p](&scheme, a, z);
+                if (!json_is_number(node_at(point, "most")))
+                    continue;
+                assert_true(number_at(point, "most") >= is * (1 - 1e-9));
+                points++;
+            }
+        }
+    assert_true(points > 100);
+    json_decref(root);
+}
+
 static void check_figure(const char *options, const char *format, const char *mapping, double zfar, double z,
                          double metre, const char *title, const char *camera) {
     dp_spec spec = dp_spec_default();
@@ -66,6 +90,7 @@ static void check_figure(const char *options, const char *format, const char *ma
     check_panel(d, &d->panels[0], &a, world_separation, metre);
     check_panel(d, &d->panels[1], &a, world_jitter, metre);
     drawn_close(d);
+    check_points(options, &a, metre);
 }
 
 TEST(test_figure) {
