@@ -7,7 +7,7 @@
 # name | a file of Debian's that has it | what chooses it | arguments | the
 # driver that was recorded | arithmetic | rasterizer | edges | vertices of the plane | conversion
 drivers='
-lavapipe    | /usr/share/vulkan/icd.d/lvp_icd*.json     | VK_ICD_FILENAMES=@ |             | Mesa 22.3.6 | mesa | lavapipe | edges on 1/256 | unsnapped | to nearest even
+lavapipe    | /usr/share/vulkan/icd.d/lvp_icd*.json     | VK_ICD_FILENAMES=@ | --device LLVMPIPE | Mesa 22.3.6 | mesa | lavapipe | edges on 1/256 | unsnapped | to nearest even
 swiftshader | /usr/lib/chromium/vk_swiftshader_icd.json | VK_ICD_FILENAMES=@ |             | 5.0.0       | mesa | swiftshader | edges on 1/16 | on 1/16 pixel | to nearest even
 llvmpipe    | /usr/lib/*/libEGL_mesa.so.0               | GALLIUM_DRIVER=llvmpipe | --device gl | Mesa 22.3.6 | mesa | llvmpipe | edges on 1/256 | unsnapped | to nearest even
 softpipe    | /usr/lib/*/libEGL_mesa.so.0               | GALLIUM_DRIVER=softpipe | --device gl | Mesa 22.3.6 | softpipe | softpipe | unsnapped edges | unsnapped | truncated
