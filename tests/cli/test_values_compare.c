@@ -158,7 +158,9 @@ static void flatten(const char *text, char *flat, size_t size) {
 /* "fp32 d3d from 121 to 1000" and the like say again what the rows say: the words are in the table. */
 static void check_verdicts(tally *t, const camera *c, const char *text, const char *rows) {
     const words best = split(rows);
-    const char *slant = c->triangles != NULL ? " at any slant" : " facing the camera";
+    const char *slant = c->triangles == NULL           ? " facing the camera"
+                        : c->triangles->slant_lo == 10 ? " at 10 to 80 degrees"
+                                                       : " at any slant";
     const char *reach = best.word[2 + c->depths + 1];
     const bool to_far = strtod(reach, NULL) >= c->zfar - 0.01 * fabs(c->zfar);
     char want[128];
@@ -375,7 +377,10 @@ TEST(test_one) {
         printed p = print_of("table --full %s", one[i].options);
         words heading = split(p.out);
         const dp_setup setup = full_setup(&one[i], heading.word[0], strtok(heading.word[1], ","));
-        const char *line = strstr(p.out, one[i].triangles != NULL ? "resolved at any slant:" : "Facing the camera, ");
+        const char *line =
+            strstr(p.out, one[i].triangles != NULL ? one[i].triangles->slant_lo == 10 ? "resolved at 10 to 80 degrees:"
+                                                                                      : "resolved at any slant:"
+                                                   : "Facing the camera, ");
         assert_non_null(line);
         bool everywhere = false; /* a separation is: then wider ones are not said */
         for (int k = 0; k < LIMITS && !everywhere; k++) {
