@@ -110,7 +110,7 @@ static void want_verdict(values *v, const char *path, const char *text, const ch
     want(v, "camera=%s kind=%s unit=%s", verdict->camera->name, quantity_get(n->kind)->name, "m");
     want(v, "lo=%f hi=%f limit=%f value=%f", n->lo, n->hi, n->limit, verdict->value);
     want(v, "z=%f code=%f method=%s", verdict->z, code_of(verdict), check_method_name(verdict->method));
-    want(v, "passed=%d surfaces=%s", verdict->value <= n->limit, is_slope(verdict) ? "any slant" : "facing");
+    want(v, "passed=%d surfaces=%s", verdict->value <= n->limit, is_slope(verdict) ? "5 to 65 degrees" : "facing");
     if (is_slope(verdict))
         want_view(v, i);
 }
@@ -151,8 +151,9 @@ static void check_text(values *v, const char *text, const need_file *file, const
         check_line(v, text, label,
                    kind->unit == NULL ? "value:6, lo:6, hi:6, limit:6"
                    : isnan(d->z)      ? "value:6, limit:6"
+                   : is_slope(d)      ? "value:6, z:6, code:6, triangles.slant_lo:4, triangles.slant_hi:4, limit:6"
                                       : "value:6, z:6, code:6, limit:6");
-        snprintf(said_of, sizeof said_of, ", %s, allowed ", is_slope(d) ? "any slant" : "facing");
+        snprintf(said_of, sizeof said_of, ", %s, allowed ", is_slope(d) ? "5 to 65 degrees" : "facing");
         const char *said = strstr(strstr(text, label), said_of), *end = strchr(strstr(text, label), '\n');
         assert_true((said != NULL && said < end) == (d->asked->kind == QUANTITY_SEPARATION));
     }
@@ -194,7 +195,7 @@ static void check_junit(const char *path, const char *text, const need_file *fil
         size_t used = (size_t)snprintf(expected, sizeof expected,
                                        "    <testcase classname=\"%s\" name=\"%s (%s%s)\" file=\"%s\" line=\"%d\"",
                                        d->camera->name, escaped(d->asked->name, name_there), setup,
-                                       is_slope(d) ? ", any slant" : "", path, d->asked->line);
+                                       is_slope(d) ? ", 5 to 65 degrees" : "", path, d->asked->line);
         if (d->passed)
             snprintf(expected + used, sizeof expected - used, "/>\n");
         else
@@ -256,7 +257,7 @@ TEST(at_the_slope) {
             "};",
             view, units[i % 2]);
         check_says(1, said[i % 2], "check '%s'", path);
-        check_says(1, "!any slant", "check '%s'", path);
+        check_says(1, "!degrees", "check '%s'", path);
         check_says(1, said[i % 2], "check --report junit '%s'", path);
         json_t *root = json_printed(1, "check '%s'", path);
         assert_string_equal(text_at(root, "requirements[0].surfaces"), said[i % 2]);

@@ -101,12 +101,14 @@ static void check_text(const solve_case *c, const json_t *answer) {
     const double facing = after(p.out, "\n  facing "), want = at(answer, "guarantee_facing");
     assert_int_equal(p.status, c->status);
     assert_true(facing >= want && facing <= want * (1 + 1e-5));
-    assert_non_null(strstr(p.out, ", at any slant\n"));
+    assert_non_null(strstr(p.out, ", at 10 to 80"));
     assert_non_null(strstr(p.out, "\n  viewport 1280x720, fov 55, 6 subpixel bits, slant 10 to 80 degrees, ieee\n"));
-    const char *note = strstr(p.out, "\n  separation "), *slant = strstr(p.out, "any slant");
+    const char *note = strstr(p.out, "\n  separation "), *slant = strstr(p.out, "10 to 80");
     if (slant == NULL || slant > note)
-        slant = strstr(p.out, "any\n  slant");
-    assert_true(slant != NULL && slant < note);
+        slant = strstr(p.out, "10 to\n  80");
+    if (slant == NULL || slant > note)
+        slant = strstr(p.out, "10\n  to 80");
+    assert_true(slant != NULL && slant < note && strstr(p.out, "any slant") == NULL);
     printed_free(&p);
 }
 
