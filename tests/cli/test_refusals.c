@@ -229,6 +229,7 @@ static const refusal refusals[] = {
     {"methods linearize -n 0 --ortho", "near", 2},
     {"methods --tolerance 1%", "tolerance", 2},
     {"check /nonexistent", "", 3},
+    {"check", "", 2},
     {"check --report json --csv tests/needs/village.need", "report", 2},
     {"check tests/needs/village.need", NULL, 1},
     {"solve --separation 0.1 --error 0.1 --at 5", "error", 2},

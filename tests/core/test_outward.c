@@ -227,9 +227,14 @@ static const shown_bound of_effect[] = {{"interval levels half-width from ", 4, 
                                         {NULL, 0, NULL, 0, EITHER, 0, 0}};
 
 /* A bias that is a window depth, as it is to be written: away from 0, which is downward where depth grows. */
+#define OF_BIAS "one unit resolved separated "
 static const shown_bound of_bias[] = {{"D3DRS_DEPTHBIAS = ", 0, "setups[0].range.units_gap", 9, DOWN, 0, 0},
+                                      {OF_BIAS, 3, ROW "units_apart", 9, DOWN, 0, 0},
+                                      {OF_BIAS, 4, ROW "units_gap", 9, DOWN, 0, 0},
                                       {NULL, 0, NULL, 0, EITHER, 0, 0}};
 static const shown_bound of_reversed[] = {{"D3DRS_DEPTHBIAS = ", 0, "setups[0].range.units_gap", 9, UP, 0, 0},
+                                          {OF_BIAS, 3, ROW "units_apart", 9, UP, 0, 0},
+                                          {OF_BIAS, 4, ROW "units_gap", 9, UP, 0, 0},
                                           {NULL, 0, NULL, 0, EITHER, 0, 0}};
 
 TEST(commands) {
