@@ -866,3 +866,28 @@ TEST(assumed_planes) {
     check_says(0, "assumed        near 0.1 m: not given", "solve --for far --separation 1cm --at 10 -F d24 -m d3d");
 #undef NEARS
 }
+
+/* Of several set-ups that are asked about the answer is the one that leaves most room. */
+TEST(most_room) {
+    static const struct {
+        const char *line, *field;
+        int sign; /* of what is better */
+    } rows[] = {{"solve --for near -f 10km --at 500m", "near", -1},
+                {"solve --for distance -n 0.5 -f 10km", "distance", 1}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        json_t *all = json_printed(-1, "%s --separation 1cm -F d24,fp32 -m d3d,reversed", rows[i].line), *one;
+        const double best = number_at(all, "answer.%s", rows[i].field);
+        size_t k, seen = 0;
+        json_array_foreach(node_at(all, "alternatives"), k, one) {
+            const char *mapping = text_at(one, "mapping"), *format = text_at(one, "format");
+            if ((strcmp(mapping, "d3d") != 0 && strcmp(mapping, "reversed") != 0) || strcmp(format, "unorm16") == 0 ||
+                !json_is_number(node_at(one, "%s", rows[i].field)))
+                continue;
+            seen++;
+            if (rows[i].sign * (number_at(one, "%s", rows[i].field) - best) > 0)
+                fail_msg("%s: %s %s leaves more than %g", rows[i].line, format, mapping, best);
+        }
+        assert_true(seen >= 1 || isinf(best));
+        json_decref(all);
+    }
+}
