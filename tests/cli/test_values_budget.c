@@ -319,4 +319,15 @@ TEST(each_number) {
     }
 }
 
+/* What NDC from 0 to 1 would need is what the mapping of the same direction does. */
+TEST(ndc_from_0) {
+    json_t *with = json_printed(0, "budget -F fp32 --at 1000 -m gl-reversed");
+    json_t *without = json_printed(0, "budget -F fp32 --at 1000 -m reversed");
+    assert_string_equal(text_at(with, "setups[0].worst.remedy"), "NDC from 0 to 1");
+    assert_relative(number_at(with, "setups[0].worst.remedy_separation"),
+                    number_at(without, "setups[0].worst.separation"), 1e-12);
+    json_decref(with);
+    json_decref(without);
+}
+
 LIST_TEST(check_apart)
