@@ -91,10 +91,9 @@ static span span_of(const judge_candidate *c, const judge_pairs *p, judge_precis
     return s;
 }
 
-/* A window depth beyond the planes may have been clamped to its range. */
-static bool clamps(const judge_candidate *c, const span *s, double v) {
-    return c->output->window != NULL && c->output->window(v) == (s->hi < 1 ? 0 : 1) &&
-           (c->output->window(s->hi) <= 0 || c->output->window(s->lo) >= 1);
+bool judge_clamps(const judge_candidate *c, double lo, double hi, double out) {
+    return c->output->window != NULL && c->output->window(out) == (hi < 1 ? 0 : 1) &&
+           (c->output->window(hi) <= 0 || c->output->window(lo) >= 1);
 }
 
 bool judge_fits_pair(const judge_candidate *c, const judge_pairs *p, judge_precision precision,
@@ -103,7 +102,7 @@ bool judge_fits_pair(const judge_candidate *c, const judge_pairs *p, judge_preci
         return false;
     const span s = span_of(c, p, precision, pair->in);
     const double v = s.inverse ? 1 / pair->out : pair->out;
-    return (v >= s.lo && v <= s.hi) || clamps(c, &s, v);
+    return (v >= s.lo && v <= s.hi) || judge_clamps(c, s.lo, s.hi, v);
 }
 
 bool judge_fits(const judge_candidate *c, const judge_pairs *p, judge_precision precision) {

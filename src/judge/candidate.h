@@ -10,6 +10,9 @@ enum { JUDGE_STEPS = 16 }; /* half units in the last place of binary32 that a fu
 /** The value of a candidate at a depth; NaN where it has none. */
 double judge_value_at(const judge_candidate *c, judge_depth at);
 
+/** Whether `out` may be a window depth, anywhere from lo to hi and beyond the planes, that was clamped to its range. */
+bool judge_clamps(const judge_candidate *c, double lo, double hi, double out);
+
 /** Whether it explains a pair with so much precision lost. */
 bool judge_fits_pair(const judge_candidate *c, const judge_pairs *p, judge_precision precision, const judge_pair *pair);
 

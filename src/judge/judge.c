@@ -199,19 +199,14 @@ static const char *nothing(const judge_pairs *p) {
                           : "no function that is known gives these values, which neither rise nor fall throughout";
 }
 
-/* Beyond the planes a window depth may be clamped to its range, which loses nothing. */
-static bool is_clamped(const judge_candidate *c, double v, double out) {
-    const double is = c->output->window != NULL ? c->output->window(v) : (double)NAN;
-    return (is < 0 || is > 1) && c->output->window(out) == (is < 0 ? 0 : 1);
-}
-
 /* Measures the errors of the values, and where they are largest. */
 static void measure(const judge_pairs *p, judgement *out) {
     const judge_candidate *c = &out->found;
     for (size_t i = 0; i < p->count; i++) {
         const double x = p->pairs[i].in, v = judge_value(c, x), error = fabs(p->pairs[i].out - v);
         const double z = c->input->depth(&c->setup, x).z, h = 0x1p-20 * fabs(z);
-        if (!isfinite(v) || !isfinite(error) || !isfinite(z) || is_clamped(c, v, p->pairs[i].out))
+        if (!isfinite(v) || !isfinite(error) || !isfinite(z) ||
+            judge_clamps(c, v, v, p->pairs[i].out)) /* which loses nothing */
             continue;
         out->off = fmax(out->off, error);
         if (v != 0 && error > out->error * fabs(v)) {
