@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "camera/surfaces.h"
 #include "core/append.h"
 #include "core/elementary.h"
 #include "core/engine.h"
@@ -154,9 +155,9 @@ static void add_panel(needs *s, chart *out, const check_verdict *first) {
     bool wanted[QUANTITY_COUNT] = {false};
     s->request.setups = &setup;
     chart_panel *panel = figure_panel(&s->request, out, y);
-    snprintf(panel->title, sizeof panel->title, "%s: %s %s, %s%s", first->camera->name, spec->format.name,
-             dp_mapping_get(spec->mapping)->name, model_word(spec->model),
-             spec->triangles.width > 0 ? ", any slant" : "");
+    snprintf(panel->title, sizeof panel->title, "%s: %s %s, %s%s%s", first->camera->name, spec->format.name,
+             dp_mapping_get(spec->mapping)->name, model_word(spec->model), spec->triangles.width > 0 ? ", " : "",
+             spec->triangles.width > 0 ? surfaces_words(&spec->triangles).text : "");
     for (size_t i = 0; i < s->count; i++)
         wanted[s->verdicts[i].asked->kind] |= same_setup(first, &s->verdicts[i]);
     for (int q = 0; q < QUANTITY_COUNT; q++)

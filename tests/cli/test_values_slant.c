@@ -306,7 +306,29 @@ TEST(which_slants_are_checked) {
             assert_string_equal(text_at(node_at(root, "requirements[%d]", i), "surfaces"),
                                 i == 0 ? slants[k][1] : "facing");
         json_decref(root);
+        root = json_printed(0, "plot needs %s", need);
+        assert_non_null(strstr(text_at(root, "panels[0].title"), slants[k][1]));
+        json_decref(root);
     }
+    /* A bias is judged at any slant, whichever are asked about, through both doors. */
+    const char *need =
+        scratch_text("bias.need", "cameras = { a = { near = 0.1; far = 1000; mapping = \"d3d\"; format = \"d24\"; "
+                                  "viewport = [1920, 1080]; fov = 60; subpixel = 8; slant = [10, 80]; }; };"
+                                  "requirements = { b = { camera = \"a\"; range = [1, 9]; bias = { api = "
+                                  "\"d3d11\"; units = -200; factor = -0.1; }; }; };");
+    json_t *root = json_printed(0, "check %s", need);
+    assert_string_equal(text_at(root, "requirements[0].surfaces"), "any slant");
+    json_decref(root);
+    check_says(0, "enough from 1 to 9, any slant;", "check %s --full", need);
+    static const char line[] = "bias -F d24 -m d3d --range 1:9 --separation 0.01 --viewport 1920x1080 --slant";
+    json_t *some = json_printed(0, "%s 10:80", line), *any = json_printed(0, "%s 0:90", line);
+    assert_true(number_at(some, "setups[0].range.units_gap") == number_at(any, "setups[0].range.units_gap") &&
+                number_at(some, "setups[0].range.units_apart") == number_at(any, "setups[0].range.units_apart"));
+    json_decref(some);
+    json_decref(any);
+    check_says(
+        0, "Enough facing the camera and at any slant",
+        "bias -F d24 -m d3d --api d3d11 --units=-200 --factor=-0.1 --range 1:9 --viewport 1920x1080 --slant 10:80");
 }
 
 /* Who draws, on which grid, and how depth is set up. */

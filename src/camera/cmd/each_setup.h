@@ -35,7 +35,7 @@ typedef struct each_setup {
 /** Conditions of columns that each_setup_write() knows: several depth ranges, or several presets, were asked about. */
 enum { EACH_OF_RANGES = 1 << 30, EACH_OF_PRESETS = 1 << 29 };
 
-/** What in CSV tells the set-ups of a report apart beside setup_columns: for before the rows, and behind them. */
+/** Columns that tell the set-ups of a report apart in CSV, beside setup_columns: before the rows, and behind them. */
 #define EACH_RANGE_COLUMNS(type)                                                                                       \
     {FIELD(type, each.full.spec.depth_range[0], "depth_range_lo", ""), .only = AS_CSV, .when = EACH_OF_RANGES}, {      \
         FIELD(type, each.full.spec.depth_range[1], "depth_range_hi", ""), .only = AS_CSV, .when = EACH_OF_RANGES       \

@@ -76,6 +76,8 @@ static bool is_facing(const check_verdict *v) {
 static surfaces_text surfaces(const check_verdict *v) {
     if (v->sloped)
         return (surfaces_text){"at the slope"};
+    if (v->asked->kind == QUANTITY_BIAS && check_is_slanted(v)) /* whatever the class is, see bias/need.c */
+        return (surfaces_text){"any slant"};
     return check_is_slanted(v) ? surfaces_words(&v->setup.spec.triangles) : (surfaces_text){"facing"};
 }
 
