@@ -76,10 +76,9 @@ bias_verdict need_bias(const need *n, const dp_setup *asked, dp_setup *setup, bo
     dp_setup_in(asked, DP_MODEL_EXACT, &exact); /* which every mapping has */
     *setup = dp_setup_facing(&exact);
     goal.slope = 0.0;
-    const double lo = fmin(fmax(n->lo, setup->spec.znear + goal.gap), n->hi);
     const bool lost = bias_is_missed(setup); /* no API biases what a fragment shader writes */
     const bias_state none = {.api = n->bias.api}, state = lost ? none : n->bias;
-    bias_verdict facing = bias_judge(setup, &state, &goal, lo, n->hi);
+    bias_verdict facing = bias_judge(setup, &state, &goal, n->lo, n->hi);
     facing.units = lost ? (double)NAN : facing.units;
     *sloped = false;
     goal.slope = n->goal.slope;
@@ -87,5 +86,5 @@ bias_verdict need_bias(const need *n, const dp_setup *asked, dp_setup *setup, bo
         return facing;
     *setup = exact;
     *sloped = goal.slope > 0.0;
-    return bias_judge(setup, &state, &goal, lo, n->hi);
+    return bias_judge(setup, &state, &goal, n->lo, n->hi);
 }

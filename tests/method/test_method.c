@@ -240,21 +240,52 @@ TEST(the_choice_is_the_cheapest_that_covers) {
     assert_string_equal(chosen("interval", 0, w), "cell");
     w.pipeline = true;
     assert_string_equal(chosen("interval", 0, w), "census");
-    /* Every choice covers: no cheaper row that covers is passed over. */
+}
+
+/* Whether a row is proven good enough for a wish, by what each field of either says. */
+static bool is_covering(const method_row *row, size_t which, const method_wish *w) {
+    const method_claim *c = &row->claims[which];
+    const bool infinite = isinf(w->ratio_hi), whole = (row->domain & METHOD_WHOLE) != 0;
+    const bool flat = (row->domain & METHOD_FLAT) != 0, ortho = (row->domain & METHOD_ORTHO) != 0;
+    if (!method_available(row) || !(c->worst > 0) || c->ratio_lo > w->ratio_lo)
+        return false;
+    if (c->ratio_hi < (infinite ? METHOD_RATIO_HI : w->ratio_hi))
+        return false;
+    if (infinite && (row->domain & METHOD_INFINITE) == 0)
+        return false;
+    if ((w->ortho && !ortho) || (!w->ortho && flat) || (w->cut_cells && whole))
+        return false;
+    return w->pipeline == ((row->domain & METHOD_PIPELINE) != 0) &&
+           method_claim_over(c, w->ratio_lo, w->ratio_hi) <= w->tolerance;
+}
+
+/* The choice covers, and no cheaper row that covers is passed over. */
+TEST(no_choice_is_beyond_its_row) {
     tally t = {.name = "choice"};
-    for (int k = 0; k < 60; k++) {
+    rng r = rng_make("wishes");
+    size_t infinite = 0, ortho = 0, cut = 0, pipeline = 0;
+    for (int k = 0; k < 4000; k++) {
         const method_family_row *family = method_family_get((size_t)k % METHOD_FAMILY_COUNT);
-        const method_wish any = {.tolerance = pow(10, -k / 4), .ratio_lo = 1e2, .ratio_hi = pow(10, 3 + k % 9)};
-        const method_row *row = method_choose(family, 0, &any);
+        const size_t which = (size_t)rng_below(&r, family->case_count);
+        const method_wish wish = {.tolerance = rng_log(&r, 1e-8, 10),
+                                  .ratio_lo = rng_log(&r, 1.001, 1e4),
+                                  .ratio_hi = rng_below(&r, 3) == 0 ? (double)INFINITY : rng_log(&r, 1e4, 1e12),
+                                  .ortho = rng_below(&r, 3) == 0,
+                                  .cut_cells = rng_below(&r, 3) == 0,
+                                  .pipeline = rng_below(&r, 4) == 0};
+        const method_row *row = method_choose(family, which, &wish);
+        TALLY(&t, row == NULL || is_covering(row, which, &wish), "%s does not cover", row->name);
         for (size_t i = 0; i < *family->method_count; i++) {
             const method_row *other = &family->methods[i];
-            bool covers = other->claims[0].worst > 0 &&
-                          method_claim_over(&other->claims[0], any.ratio_lo, any.ratio_hi) <= any.tolerance &&
-                          other->claims[0].ratio_hi >= any.ratio_hi && (other->domain & METHOD_PIPELINE) == 0 &&
-                          (other->domain & METHOD_FLAT) == 0 && method_available(other);
-            TALLY(&t, !covers || (row != NULL && row->cost <= other->cost), "%s passed over", other->name);
+            TALLY(&t, !is_covering(other, which, &wish) || (row != NULL && row->cost <= other->cost), "%s passed over",
+                  other->name);
         }
+        infinite += row != NULL && isinf(wish.ratio_hi);
+        ortho += row != NULL && wish.ortho;
+        cut += row != NULL && wish.cut_cells;
+        pipeline += row != NULL && wish.pipeline;
     }
+    assert_true(infinite > 50 && ortho > 50 && cut > 50 && pipeline > 5);
     tally_end(&t);
 }
 

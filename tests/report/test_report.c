@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Columns as data: every kind in every form. JSON is read by jansson; CSV and text are written out by hand. */
 
+#define _XOPEN_SOURCE 700 /* terminals */
+#include <fcntl.h>
 #include <iconv.h>
 #include <jansson.h>
+#include <unistd.h>
 
 #include "report/number.h"
 #include "report/report.h"
@@ -474,6 +477,41 @@ TEST(brief) {
         snprintf(number.text, sizeof number.text, "%s", cases[i].number);
         assert_string_equal(number_brief(number).text, cases[i].want);
     }
+}
+
+/* Colour where it is a terminal, of a kind that has colours, and nobody said no; or as was asked. */
+TEST(colour) {
+    static const struct {
+        const char *term, *no_color;
+        bool terminal;
+        output_colour asked;
+        bool want;
+    } cases[] = {{"xterm", NULL, true, OUTPUT_COLOUR_AUTO, true},   {"xterm", "", true, OUTPUT_COLOUR_AUTO, false},
+                 {"xterm", "1", true, OUTPUT_COLOUR_AUTO, false},   {"dumb", NULL, true, OUTPUT_COLOUR_AUTO, false},
+                 {NULL, NULL, true, OUTPUT_COLOUR_AUTO, false},     {"xterm", NULL, false, OUTPUT_COLOUR_AUTO, false},
+                 {"xterm", "1", false, OUTPUT_COLOUR_ALWAYS, true}, {"dumb", NULL, true, OUTPUT_COLOUR_ALWAYS, true},
+                 {"xterm", NULL, true, OUTPUT_COLOUR_NEVER, false}};
+    const int host = posix_openpt(O_RDWR | O_NOCTTY);
+    if (host < 0 || grantpt(host) != 0 || unlockpt(host) != 0)
+        skip();
+    const int terminal = open(ptsname(host), O_RDWR | O_NOCTTY), file = open("/dev/null", O_WRONLY);
+    const char *term = getenv("TERM"), *before = term != NULL ? strdup(term) : NULL;
+    static output out;
+    assert_true(terminal >= 0 && file >= 0);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        cases[i].term != NULL ? setenv("TERM", cases[i].term, 1) : unsetenv("TERM");
+        cases[i].no_color != NULL ? setenv("NO_COLOR", cases[i].no_color, 1) : unsetenv("NO_COLOR");
+        out.fd = cases[i].terminal ? terminal : file;
+        out.colour = cases[i].asked;
+        const page p = page_start(&out, 0);
+        if ((p.good[0] != '\0') != cases[i].want)
+            fail_msg("case %zu: %s", i, cases[i].want ? "no colour" : "colour");
+        assert_true((strcmp(p.good, p.bad) != 0) == cases[i].want);
+    }
+    setenv("NO_COLOR", "1", 1);
+    before != NULL ? setenv("TERM", before, 1) : unsetenv("TERM");
+    free((char *)before);
+    close(terminal), close(file), close(host);
 }
 
 int main(void) {

@@ -41,6 +41,8 @@ typedef struct done {
     bool whole; /* the factor is of the change along the slope, as OpenGL has it; else of that on either axis */
 } done;
 
+static const char *const told[] = {"three", "unity-urp", "bevy", "babylon", "playcanvas", "filament", "godot"};
+
 static done by_engine(const char *name, const shadow_light *l, double unit, double bias, double normal,
                       long double angle, long double length) {
     const long double z = l->receiver_lo, tangent = tanl((long double)l->fov * pi / 360);
@@ -170,6 +172,32 @@ TEST(verdicts) {
         tally_end(&t[i]);
 }
 
+/* How far a point moves along its normal is what the engine's own code moves it; of what it moves aside of the ray, the
+ * part along the normal. */
+TEST(offset_along_the_normal) {
+    rng r = rng_make("offsets");
+    tally t = {.name = "offsets"};
+    size_t moved[3] = {0}, aside = 0;
+    const bias_api *api = bias_api_find("vulkan-unorm");
+    for (uint64_t n = test_cases(300, 3000, 30000); n > 0; n--) {
+        const shadow_light light = random_light(&r);
+        const shadow_engine *engine = shadow_engine_find(told[n % 7]);
+        double bias, normal;
+        numbers_of(&r, &light, engine, &bias, &normal);
+        const shadow_given given = shadow_engine_gives(engine, &light, api, bias, normal);
+        const double angle = rng_uniform(&r, 0.0, light.triangles.slant_hi);
+        const long double radians = angle * pi / 180, sine = sinl(radians);
+        const done d = by_engine(engine->name, &light, 0, bias, normal, radians, 1);
+        const double want = (double)(d.normal + d.aside * sine * sine), got = shadow_given_offset(&given, angle);
+        TALLY(&t, fabs(got - want) <= 1e-9 * want, "%s: kind %d at %g: %g, not %g", engine->name, light.kind, angle,
+              got, want);
+        moved[light.kind] += want > 0;
+        aside += d.aside > 0;
+    }
+    assert_true(moved[0] > 20 && moved[1] > 20 && moved[2] > 20 && aside > 20);
+    tally_end(&t);
+}
+
 TEST(least) {
     rng r = rng_make("least of engines");
     tally t[2] = {{.name = "enough"}, {.name = "no less is"}};
@@ -267,7 +295,6 @@ TEST(defaults) {
 
 /* The numbers for another engine do the same at the nearest receivers. */
 TEST(same_elsewhere) {
-    static const char *const told[] = {"three", "unity-urp", "bevy", "babylon", "playcanvas", "filament", "godot"};
     rng r = rng_make("engines to engines");
     tally t = {.name = "the same"};
     const bias_api *api = bias_api_find("vulkan-unorm");

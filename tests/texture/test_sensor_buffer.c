@@ -180,3 +180,28 @@ TEST(two_cameras) {
             assert_true(b.bits == bits && b.znear == n && isinf(b.zfar));
         }
 }
+
+/* As many digits as are looked for, of levels that are known well; one more is nobody's. */
+TEST(planes_of_three_digits) {
+    static const struct {
+        double znear, zfar;
+        bool named;
+    } planes[] = {{0.125, INFINITY, true}, {0.217, INFINITY, true},   {0.0523, 731, true},
+                  {1.07, 946, true},       {0.1253, INFINITY, false}, {0.5237, 731.9, false}};
+    size_t inverse = 0;
+    while (sensor_get(inverse)->levels != GRAIN_INVERSE)
+        inverse++;
+    for (size_t i = 0; i < sizeof planes / sizeof planes[0]; i++)
+        for (int bits = 16; bits <= 24; bits += 8) {
+            const double n = planes[i].znear, f = planes[i].zfar, span = ldexp(1, bits) - 1;
+            const sensor s = {.row = sensor_get(inverse),
+                              .found = true,
+                              .step = (1 / n - 1 / f) / span,
+                              .step_off = 1e-11 / span,
+                              .offset = remainder(1 / f, (1 / n - 1 / f) / span),
+                              .offset_off = 1e-13};
+            sensor_buffer b;
+            assert_int_equal(sensor_buffer_find(&s, 2 * n, 400 * n, &b), planes[i].named);
+            assert_true(!planes[i].named || (b.bits == bits && b.znear == n && b.zfar == f));
+        }
+}

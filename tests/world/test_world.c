@@ -4,6 +4,7 @@
  * near it; no two surfaces at the gap that is said to be safe are out of order; a simulation that was published is met.
  */
 #include "depthprec/depthprec.h"
+#include "setups.h"
 #include "support.h"
 #include "world/reach.h"
 
@@ -587,4 +588,31 @@ TEST(over_a_range) {
     tally_end(&ordered);
     tally_end(&about);
     tally_end(&near_it);
+}
+
+/*
+ * Where the buffer's need grows fast and places are moved far: a surface at the range's end may be moved behind it, to
+ * where the buffer needs more, and both surfaces towards each other.
+ */
+TEST(over_a_range_far_from_the_origin) {
+    rng r = rng_make("world ranges, far");
+    tally t = {.name = "the need behind the end of a range"};
+    double more = 0.0;
+    for (uint64_t n = test_cases(20, 100, 1000); n > 0; n--) {
+        const double hi = rng_log(&r, 50.0, 500.0), lo = hi * rng_uniform(&r, 0.5, 0.9);
+        const dp_setup setup = SETUP("unorm24", .znear = hi * rng_log(&r, 3e-7, 3e-6), .zfar = 1e5,
+                                     .model = DP_MODEL_FLOAT, .mapping = DP_MAPPING_D3D);
+        const world_scheme s = standard(rng_below(&r, 3));
+        const world_asked a = {.setup = &setup, .ray_ratio = lean};
+        const double distance = ldexp(1.0, 24) * hi * rng_uniform(&r, 0.01, 0.1);
+        const world_where end = {distance, lean * hi, hi};
+        const world_error e = world_bound(&s, &end);
+        const double own = world_own(&e, false), over = world_separation_over(&s, &a, distance, lo, hi);
+        const double behind = dp_separation(&setup, hi + world_all(&e));
+        more = fmax(more, behind / dp_separation(&setup, hi));
+        TALLY(&t, over >= (2.0 * own + behind) * (1.0 - 1e-12), "%s, %g to %g, distance %g: %g, not %g + %g",
+              s.row->name, lo, hi, distance, over, 2.0 * own, behind);
+    }
+    assert_true(more > 1.2);
+    tally_end(&t);
 }
