@@ -252,7 +252,7 @@ void frame_effect(const frame_row *in) {
 void frame_effect_error(const frame_row *in) {
     const effect_work w = work_of(in);
     const bool alike = in->frame->synthetic == NULL && camera_is_shared(w.camera) &&
-                       (w.row->needs & EFFECT_POSITION) == 0; /* as far as codes are */
+                       (w.row->needs & EFFECT_POSITION) == 0; /* as far as codes are; what looks aside needs it */
     frame_ranges last = frame_no_range();
     places(&w);
     for (uint32_t x = 0; x < w.camera->width; x++) {
@@ -261,7 +261,7 @@ void frame_effect_error(const frame_row *in) {
             error = effect_corners_error(&w, x);
         else if (isnan(in->eyes[NORMAL_REACH][x]))
             error = NAN;
-        else if (alike && x > 0 && in->codes[x] == in->codes[x - 1] && aside_of(&w, x) == x)
+        else if (alike && x > 0 && in->codes[x] == in->codes[x - 1])
             error = (double)in->out[x - 1];
         else
             error = error_at(&w, &last, x);

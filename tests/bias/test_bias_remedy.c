@@ -229,6 +229,11 @@ TEST(clipped_before_near) {
         assert_true(!at.limited && at.depth == (setup.reversed ? 1.0 : 0.0));
         assert_true(remedy_at(&setup, row, rows[i / 2].amount, 2.0 - 1e-9).limited);
         assert_true(!remedy_at(&setup, row, rows[i / 2].amount, 2.0 + 1e-9).limited);
+        /* A near plane of its own that lies beyond far clips all of it. */
+        spec.zfar = 10.0;
+        assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
+        for (double z = 1.0; z <= 10.0; z += 0.5)
+            assert_true(remedy_at(&setup, remedy_find("near"), 20.0, z).limited);
     }
 }
 

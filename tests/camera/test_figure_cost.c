@@ -109,6 +109,7 @@ TEST(costs_and_separations) {
     dp_spec spec = usual;
     check("", 100, spec, false);
     check("--at 3", 3, spec, false);
+    check("--at 995", 995, spec, false); /* of 16 bits nothing up to far is certain */
     spec.ortho = true;
     check("--ortho --at 7", 7, spec, false);
     spec = usual;
