@@ -206,26 +206,31 @@ static void check_witness(const bias_drawing *d, const bias_drawn *drawn, tally 
           drawn->y, drawn->pixel.moved, drawn->pixel.code, moved, code);
 }
 
+static void random_camera(rng *r, dp_setup *setup, draw_camera *camera) {
+    static const char *const formats[] = {"fp32", "unorm24", "unorm16"};
+    dp_spec spec = dp_spec_default();
+    dp_format found[2];
+    dp_format_parse(formats[rng_below(r, 3)], found);
+    spec.format = found[0];
+    spec.mapping = rng_below(r, 2) == 0 ? DP_MAPPING_REVERSED : DP_MAPPING_D3D;
+    spec.znear = rng_log(r, 0.01, 1.0);
+    spec.zfar = spec.znear * rng_log(r, 100.0, 1e5);
+    spec.model = DP_MODEL_FLOAT;
+    spec.triangles = dp_triangles_default();
+    assert_int_equal(dp_arith_parse("mesa", &spec.arith), DP_OK);
+    raster_describe(raster_find("llvmpipe"), &spec.triangles);
+    assert_int_equal(dp_setup_init(setup, &spec), DP_OK);
+    assert_int_equal(draw_camera_init(camera, raster_find("llvmpipe"), setup), RASTER_OK);
+}
+
 TEST(a_pixel_that_fights_does) {
     rng r = rng_make("bias drawn pixel");
     tally t = {.name = "pixels that fight"};
     for (uint64_t i = 0; i < test_cases(60, 400, 10000); i++) {
-        static const char *const formats[] = {"fp32", "unorm24", "unorm16"};
-        dp_spec spec = dp_spec_default();
-        dp_format found[2];
         dp_setup setup;
         draw_camera camera;
-        dp_format_parse(formats[rng_below(&r, 3)], found);
-        spec.format = found[0];
-        spec.mapping = rng_below(&r, 2) == 0 ? DP_MAPPING_REVERSED : DP_MAPPING_D3D;
-        spec.znear = rng_log(&r, 0.01, 1.0);
-        spec.zfar = spec.znear * rng_log(&r, 100.0, 1e5);
-        spec.model = DP_MODEL_FLOAT;
-        spec.triangles = dp_triangles_default();
-        assert_int_equal(dp_arith_parse("mesa", &spec.arith), DP_OK);
-        raster_describe(raster_find("llvmpipe"), &spec.triangles);
-        assert_int_equal(dp_setup_init(&setup, &spec), DP_OK);
-        assert_int_equal(draw_camera_init(&camera, raster_find("llvmpipe"), &setup), RASTER_OK);
+        random_camera(&r, &setup, &camera);
+        const dp_spec spec = setup.spec;
         const double sign = bias_sign(&setup);
         const bias_state given = {bias_api_find(apis[rng_below(&r, 2)]), sign * (double)rng_below(&r, 4),
                                   sign * (rng_below(&r, 2) == 0 ? 0.0 : rng_log(&r, 1e-3, 0.1)), 0.0};
@@ -240,6 +245,59 @@ TEST(a_pixel_that_fights_does) {
     }
     assert_true(t.cases > 20);
     tally_end(&t);
+}
+
+/* Where a plane has its depth at a place of the window. */
+static double eye_at(const bias_drawing *d, const draw_plane *plane, double x, double y) {
+    double ray[3];
+    draw_ray(d->camera, (const double[2]){x, y}, ray);
+    return plane->distance / (plane->normal[0] * ray[0] + plane->normal[1] * ray[1] + plane->normal[2] * ray[2]);
+}
+
+/* The greater rate at which its depth changes there, across or up, scene units a pixel: 1/z is straight. */
+static double rate_at(const bias_drawing *d, const draw_plane *plane, double x, double y) {
+    const double z = eye_at(d, plane, x, y);
+    const double across = 1.0 / eye_at(d, plane, x + 8, y) - 1.0 / eye_at(d, plane, x - 8, y);
+    const double up = 1.0 / eye_at(d, plane, x, y + 8) - 1.0 / eye_at(d, plane, x, y - 8);
+    return fmax(fabs(across), fabs(up)) / 16.0 * z * z;
+}
+
+/* Each plane that is drawn at a slope has a pixel of just that, and none that is steeper counts. */
+TEST(planes_of_a_slope) {
+    rng r = rng_make("planes of a slope");
+    tally t[] = {{.name = "a pixel of just that slope"}, {.name = "none that counts is steeper"}};
+    uint64_t steeper = 0, counted = 0;
+    for (uint64_t i = 0; i < test_cases(100, 600, 10000); i++) {
+        dp_setup setup;
+        draw_camera camera;
+        random_camera(&r, &setup, &camera);
+        const double n = setup.spec.znear, f = setup.spec.zfar, lo = rng_log(&r, 2.0 * n, 0.25 * f);
+        const bias_state none = {bias_api_find(apis[0]), 0.0, 0.0, 0.0};
+        bias_drawing d = {.camera = &camera,
+                          .setup = &setup,
+                          .state = &none,
+                          .lo = lo,
+                          .hi = 1.5 * lo,
+                          .slope = lo * rng_log(&r, 1e-4, 0.1)};
+        assert_true(bias_drawing_open(&d));
+        const bias_drawn drawn = bias_draw(&d, 1, i);
+        const bias_pair *pair = &drawn.pair;
+        double nearest = HUGE_VAL;
+        for (int y = pair->area.y; y < pair->area.y + pair->area.height; y++)
+            for (int x = pair->area.x; x < pair->area.x + pair->area.width; x++) {
+                const double rate = rate_at(&d, &pair->plane, x + 0.5, y + 0.5) / d.slope;
+                const bool counts = bias_pixel_at(&d, pair, x, y).covered;
+                nearest = fmin(nearest, fabs(rate - 1.0));
+                TALLY(&t[1], !counts || rate <= 1.0 + 1e-6, "slope %g: %g of it", d.slope, rate);
+                steeper += rate > 1.001;
+                counted += counts;
+            }
+        TALLY(&t[0], drawn.pixels == 0 || nearest < 1e-6, "slope %g: off by %g of it", d.slope, nearest);
+        bias_drawing_close(&d);
+    }
+    assert_true(steeper > 1000 && counted > 1000);
+    for (size_t i = 0; i < 2; i++)
+        tally_end(&t[i]);
 }
 
 /* ---- The command ------------------------------------------------------------------------------------------------- */

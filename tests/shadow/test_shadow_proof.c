@@ -137,6 +137,43 @@ static void check_bare(shadow_drawing *d, const shadow_scene *s, tally *t, uint6
         }
 }
 
+/* A plane that faces the sun at a depth which binary32 holds is as far as its own map everywhere, and that is lit. */
+TEST(as_far_is_lit) {
+    rng r = rng_make("as far");
+    uint64_t lit = 0;
+    for (int k = 0; k < 12; k++) {
+        shadow_light l = shadow_light_default();
+        dp_spec spec = dp_spec_default();
+        shadow_drawing d;
+        shadow_scene scene;
+        uint64_t seed = rng_next(&r);
+        spec.mapping = k % 2 ? DP_MAPPING_REVERSED : DP_MAPPING_D3D;
+        spec.ortho = true;
+        spec.znear = 0.0;
+        spec.zfar = l.width = l.height = 64.0;
+        assert_int_equal(dp_arith_parse("mesa", &spec.arith), DP_OK);
+        assert_int_equal(dp_setup_init(&l.setup, &spec), DP_OK);
+        l.triangles.width = l.triangles.height = 256;
+        raster_describe(raster_find("llvmpipe"), &l.triangles);
+        l.triangles.slant_lo = 0.0;
+        l.triangles.slant_hi = 60.0;
+        l.triangles.pixels = 64.0;
+        l.small = 1.0;
+        l.receiver_lo = 8.0;
+        l.receiver_hi = 56.0;
+        assert_int_equal(shadow_drawing_open(&d, raster_find("llvmpipe"), &l), RASTER_OK);
+        assert_true(shadow_scene_random(&d, &seed, &scene));
+        scene.plane = (draw_plane){.normal = {0.0, 0.0, 1.0}, .distance = 16.0 * (k / 4) - 16.0};
+        d.beyond = d.within = 0.0;
+        const shadow_drawn bare =
+            seen_with(&d, &scene, (shadow_worn){.state = {bias_api_find("vulkan-float"), 0.0, 0.0, 0.0}});
+        assert_true(bare.of[SHADOW_SEEN_ACNE] == 0);
+        lit += bare.of[SHADOW_SEEN_LIT];
+        shadow_drawing_close(&d);
+    }
+    assert_true(lit > 10000);
+}
+
 /* ---- Lights at random -------------------------------------------------------------------------------------------- */
 
 /* Whether a quarter of the constant bias is less than the points that are asked about need. */
@@ -349,7 +386,8 @@ static void check_told(const char *line, bool acne_before) {
         /* The same planes, points and casters, whatever is lit of them; an offset moves some across an edge. */
         static const char *const counted[] = {"points", "behind", "within"};
         for (int k = 0; k < 3; k++) {
-            const double first = number_at(rows, "[0].%s", counted[k]), now = number_at(rows, "[%zu].%s", i, counted[k]);
+            const double first = number_at(rows, "[0].%s", counted[k]),
+                         now = number_at(rows, "[%zu].%s", i, counted[k]);
             assert_true(fabs(now - first) <= 0.05 * first);
         }
         if (i > 0 && (number_at(rows, "[%zu].acne", i) != 0 || number_at(rows, "[%zu].behind_lit", i) != 0))
@@ -364,6 +402,7 @@ TEST(told) {
     check_told("--light-box 20x20x50 --range 20:40 -m reversed -F fp32 --api d3d12 --angle 30", true);
     check_told("--spot 50 -n 1 -f 30 --range 2:20 -m reversed -F fp32 --api gl --angle 50", true);
     check_told("--light-box 20x20x50 --size 1024 -F d24", true);
+    check_told("--light-box 20x20x50 --size 1024 -F d24 --kernel 15 --angle 30", true); /* a tenth less has acne */
     check_told("--spot 60 -n 0.5 -f 40 -F d24 --size 1024 --engine three --bias=-0.0005", true);
     check_told("--spot 60 -n 0.5 -f 40 -F d24 --size 1024 --engine three --bias=-0.02", false);
     check_told("--point -n 0.1 -f 25 -F d16 --size 512 --raster swiftshader", true);
