@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pairs that a census looks at again, and how often it asks for the guarantee: little, and the same comes out. */
+#include "core/engine.h"
 #include "depthprec/depthprec.h"
 #include "setups.h"
 #include "support.h"
 #include "zfight/census.h"
+#include "zfight/ground.h"
 
 static uint64_t looked_at, asked;
 
@@ -114,6 +116,38 @@ TEST(separation_is_calm) {
                   (double)dp_float32(first), here / step, ends / step);
         }
     }
+    tally_end(&t);
+}
+
+/* Where a guarantee counts steps it falls as z rises and leaps behind each: the floor under a part lies below that,
+ * too. */
+TEST(a_floor_lies_below) {
+    tally t = {.name = "floors"};
+    rng r = rng_make("floors");
+    double nearest = HUGE_VAL;
+    uint64_t falling = 0;
+    for (uint64_t n = 0; n < test_cases(3000, 20000, 200000); n++) {
+        dp_setup s;
+        if (!random_setup(&r, &s) || !dp_counts_steps(&s) || s.spec.ortho)
+            continue;
+        const census_request request = census_of_guarantee(&s, s.spec.znear, s.spec.zfar);
+        const double z = rng_log(&r, s.spec.znear, s.spec.zfar);
+        const uint32_t begin = dp_rank32((float)z) & ~0x7FFFFFU, calm = request.calm;
+        const uint32_t part = calm * (1 + (uint32_t)rng_below(&r, 0x800000 / calm - 1));
+        if ((double)dp_ranked32(begin) < s.spec.znear || (double)dp_ranked32(begin + 0x7FFFFF) > s.spec.zfar)
+            continue;
+        census_ground ground = census_ground_make(&request, begin, begin + 0x7FFFFF);
+        const double floor = census_ground_at(&ground, begin + part);
+        falling += floor > 0.0;
+        for (int k = 0; k < 200 && floor > 0.0; k++) {
+            const uint32_t at = begin + part + (uint32_t)rng_below(&r, calm);
+            const double here = dp_separation(&s, (double)dp_ranked32(at));
+            TALLY(&t, floor <= here, "%s: %a, at %a %a", name_of(&s), floor, (double)dp_ranked32(at), here);
+            nearest = fmin(nearest, here / floor);
+        }
+    }
+    print_message("# %llu parts, the nearest %g times its floor\n", (unsigned long long)falling, nearest);
+    assert_true(falling > 5);
     tally_end(&t);
 }
 
