@@ -677,9 +677,11 @@ static void write_texels(const uint8_t *texels, uint32_t channels) {
     assert_int_equal(fclose(f), 0);
 }
 
-/* A target that was cleared to black, with a few depths; `cleared` pixels of it are still 0. */
-static void write_cleared(const packing *p, int cleared) {
+/* A target that was cleared to black, with a few depths; `cleared` pixels of it are still 0, or hold a normal alone. */
+static void write_cleared(const packing *p, int cleared, bool normal) {
     uint8_t texels[4 * PIXELS] = {0};
+    for (int i = 0; i < cleared && normal; i++)
+        packing_normal_texel((const double[]){0, 0.6, 0.8}, texels + (size_t)i * p->channels);
     for (int i = cleared; i < PIXELS; i++)
         packing_texel(p, packing_nearest(p, 0.2 + 0.003 * i), texels + (size_t)i * p->channels);
     write_texels(texels, p->channels);
@@ -703,7 +705,7 @@ TEST(cleared_to_black) {
         float eyes[PIXELS], fog[PIXELS];
         const char *const in = truth_path("in.npy");
         const bool depth = rows[i].said == NULL;
-        write_cleared(packing_find(rows[i].packing), 7);
+        write_cleared(packing_find(rows[i].packing), 7, false);
         assert_int_equal(
             run((const char *const[]){in, "-n", rows[i].znear, "-f", "40", "--packing", rows[i].packing, "--sky",
                                       rows[i].sky, "--json", "-o", truth_path("said.json"), NULL}),
@@ -751,17 +753,19 @@ TEST(cleared_normals) {
         double from; /* the depth from which on all is sky */
     } rows[] = {{"0.0001", 1}, {"none", 1}, {"0", 1}, {"0.3", 0.7}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
-        for (int map = 0; map < 2; map++) {
+        for (int map = 0; map < 4; map++) {
             float normals[3 * PIXELS];
             const char *npy = truth_path("place.npy");
-            write_cleared(packing_find("depth-normals"), 7);
+            write_cleared(packing_find("depth-normals"), 7, map / 2 == 1);
             assert_int_equal(run((const char *const[]){truth_path("in.npy"), "--packing", "depth-normals", "--sky",
                                                        rows[i].sky, "--product", "packed-normal", "-q", "-o", npy,
-                                                       map ? "--error-map" : NULL, NULL}),
+                                                       map % 2 ? "--error-map" : NULL, NULL}),
                              0);
-            truth_floats("place.npy", map ? 1 : 3, normals);
+            truth_floats("place.npy", map % 2 ? 1 : 3, normals);
+            /* A normal at what is read as the far plane is kept where nothing counts as sky. */
+            const bool kept = map / 2 == 1 && strcmp(rows[i].sky, "none") == 0;
             for (int k = 0; k < PIXELS; k++)
-                assert_true(isnan(normals[map ? k : 3 * k]) == (k < 7 || 0.2 + 0.003 * k > rows[i].from));
+                assert_true(isnan(normals[map % 2 ? k : 3 * k]) == (k < 7 ? !kept : 0.2 + 0.003 * k > rows[i].from));
         }
 }
 

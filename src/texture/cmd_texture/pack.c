@@ -73,9 +73,9 @@ static void depths_of(const texture_source *s, uint32_t row, uint32_t *codes, do
         d[x] = codes[x] == UINT32_MAX ? (double)NAN : dp_format_value(format, codes[x]);
 }
 
-/* Holes and sky, which have no normal beside the depth. */
+/* Holes, whose depth is NaN, and sky have no normal beside the depth. */
 static bool is_drawn(const texture_request *o, double depth) {
-    return o->image.packing->steps == 0 || (!isnan(depth) && (o->image.sky < 0 || 1 - depth > o->image.sky));
+    return o->image.packing->steps == 0 || o->image.sky < 0 || 1 - depth > o->image.sky;
 }
 
 /* Where nothing is drawn lies the far plane. */
