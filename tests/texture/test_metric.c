@@ -267,6 +267,26 @@ static void check_near_end(const command *base, const char *words, bool inverse,
     json_decref(root);
 }
 
+/* The last level but 0 has no end: 200 m, which is 1 of 1/200 a metre; 100 m, which is 2, ends there. */
+TEST(the_last_level_has_no_end) {
+    static const char *const words[] = {"--metric", "0.01", "--lattice", "inverse:200"};
+    static double data[PIXELS];
+    float map[PIXELS];
+    command base = {.count = 0};
+    for (int i = 0; i < PIXELS; i++)
+        truth_store(data, IMAGE_U16, (size_t)i, i == 0 ? 20000 : i == 1 ? 10000 : 1000);
+    truth_write(truth_path("in.npy"), IMAGE_NPY, IMAGE_U16, data);
+    truth_add(&base, truth_path("in.npy"));
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
+        truth_add(&base, words[i]);
+    truth_product(&base, "map.npy", "eye", NULL, true);
+    truth_floats("map.npy", 1, map);
+    assert_true(isinf(map[0]) && map[1] >= 100 && map[1] < 101 && map[2] < 1);
+    json_t *root = statistics(&base);
+    assert_true(number_in(json_array_get(json_object_get(root, "errors"), 0), "unbounded") == 1);
+    json_decref(root);
+}
+
 /* The lattice given by --lattice is taken: its step, and the error of each pixel by a formula. */
 TEST(a_lattice_is_said) {
     static const struct said {
