@@ -537,12 +537,15 @@ static double typed_value(int type, uint32_t code) {
     return type == DP_IMAGE_F32 ? (double)(float)value : value;
 }
 
-/* The sample of a code, or of a hole, whose channel is filled with what is no depth. */
-static void store(void *data, int type, size_t at, uint32_t code, bool hole) {
+typedef enum content { A_CODE, A_HOLE, ANOTHER } content; /* the last: of another channel, no depth either */
+
+static void store(void *data, int type, size_t at, uint32_t code, content of) {
     static const size_t sizes[] = {1, 2, 4, 2, 4, 8};
-    const double x = hole ? (double)NAN : typed_value(type, code);
+    const double x = of == A_HOLE ? (double)NAN : of == ANOTHER ? -2.5 : typed_value(type, code);
     const float narrow = (float)x;
-    const uint32_t bits = !hole ? code : type == DP_IMAGE_F16 ? 0x7C00 : UINT32_MAX;
+    const uint32_t half = of == A_HOLE ? 0x7C00 : 0xC100, bits = of == A_CODE           ? code
+                                                                 : type == DP_IMAGE_F16 ? half
+                                                                                        : UINT32_MAX;
     unsigned char *to = (unsigned char *)data + at * sizes[type];
     if (type == DP_IMAGE_F32)
         memcpy(to, &narrow, sizeof narrow);
@@ -570,7 +573,9 @@ TEST(each_type_and_stride) {
                 dp_recognised r;
                 for (size_t i = 0; i < stride * SAMPLES; i++)
                     store(data, type, i, typed[type].first + (uint32_t)(i / stride % typed[type].different),
-                          i % stride > 0 || (numbers && i / stride % 4 == 3));
+                          i % stride > 0                   ? ANOTHER
+                          : numbers && i / stride % 4 == 3 ? A_HOLE
+                                                           : A_CODE);
                 assert_int_equal(dp_recognise(&img, NULL, slots, &r), DP_OK);
                 if (!r.depth || strcmp(r.format.name, typed[type].format) != 0 || r.reason != typed[type].reason ||
                     r.proved != typed[type].proved || r.certain != r.proved || r.samples != SAMPLES ||
