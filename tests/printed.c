@@ -124,6 +124,16 @@ void printed_free(printed *p) {
     *p = (printed){0};
 }
 
+void printed_unfold(char *text) {
+    char *to = text;
+    for (char *from = text; *from != '\0'; from++)
+        if (!isspace((unsigned char)*from))
+            *to++ = *from;
+        else if (to > text && to[-1] != ' ')
+            *to++ = ' ';
+    *to = '\0';
+}
+
 char *output_of(int status, const char *arguments, const char *form) {
     printed p = print_of("%s %s", arguments, form);
     if (p.status != status)

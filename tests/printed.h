@@ -34,6 +34,9 @@ typedef struct printed {
 printed print_of(const char *format, ...) __attribute__((format(printf, 1, 2)));
 void printed_free(printed *p);
 
+/** Puts a text on one line: where it was broken, and how far it was indented, is not asked. */
+void printed_unfold(char *text);
+
 /** The stdout, to be freed, of `depthprec ARGUMENTS FORM`; fails the test when it ends with another exit status. */
 char *output_of(int status, const char *arguments, const char *form);
 

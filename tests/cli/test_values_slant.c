@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Slanted triangles in table and budget, against the library; options spelled out here by hand. */
-#include <ctype.h>
 
 #include "bias/bias.h"
 #include "printed.h"
@@ -224,17 +223,6 @@ TEST(text) {
     printed_free(&p);
 }
 
-/* A text on one line: where it was broken, and how far it was indented, is not asked. */
-static void unfold(char *text) {
-    char *to = text;
-    for (char *from = text; *from != '\0'; from++)
-        if (!isspace((unsigned char)*from))
-            *to++ = *from;
-        else if (to > text && to[-1] != ' ')
-            *to++ = ' ';
-    *to = '\0';
-}
-
 static int times(const char *text, const char *word) {
     int n = 0;
     for (const char *at = text; (at = strstr(at, word)) != NULL; at += strlen(word))
@@ -275,7 +263,7 @@ TEST(which_slants) {
             else
                 snprintf(said, sizeof said, lines[i].format, slants[k].words);
             printed p = print_of("%s --viewport 1920x1080 --slant %s", lines[i].line, slants[k].slant);
-            unfold(p.out);
+            printed_unfold(p.out);
             if (p.status > 1 || strstr(p.out, said) == NULL || (k > 0 && strstr(p.out, "any slant") != NULL))
                 fail_msg("%s --slant %s: no \"%s\", or any slant:\n%s%s", lines[i].line, slants[k].slant, said, p.out,
                          p.errors);
@@ -297,7 +285,7 @@ TEST(which_slants_are_checked) {
                                         "  f = { camera = \"b\"; at = 10; separation = 1; }; };",
                                         slants[k][0]);
         printed p = print_of("check %s --full", need);
-        unfold(p.out);
+        printed_unfold(p.out);
         assert_int_equal(times(p.out, slants[k][1]), 1);
         assert_true(times(p.out, "any slant") == (k == 0));
         printed_free(&p);

@@ -135,19 +135,6 @@ typedef struct shown_bound {
     double plus;  /* added then */
 } shown_bound;
 
-/* A text with one blank between words, to be freed. */
-static char *flattened(const char *text) {
-    char *flat = malloc(strlen(text) + 2);
-    size_t used = 0;
-    for (; *text != '\0'; text++) {
-        const char c = *text == '\n' ? ' ' : *text;
-        if (c != ' ' || used == 0 || flat[used - 1] != ' ')
-            flat[used++] = c;
-    }
-    flat[used] = '\0';
-    return flat;
-}
-
 static const char *word_at(const char *flat, const shown_bound *b) {
     const char *at = strstr(flat, b->phrase);
     if (at == NULL)
@@ -174,14 +161,13 @@ static void check_shown(tally *t, const char *line, const char *path, const char
 static void check_bounds(tally *t, const char *line, const shown_bound *rows) {
     printed p = print_of("%s", line);
     json_t *root = p.status == 0 ? json_printed(0, "%s", line) : NULL;
-    char *flat = flattened(p.out);
+    printed_unfold(p.out);
     for (const shown_bound *b = rows; root != NULL && b->phrase != NULL; b++) {
-        const char *at = word_at(flat, b);
+        const char *at = word_at(p.out, b);
         if (at != NULL)
             check_shown(t, line, b->path, at, number_at(root, "%s", b->path) * (b->scale > 0 ? b->scale : 1) + b->plus,
                         b->digits, b->to);
     }
-    free(flat);
     json_decref(root);
     printed_free(&p);
 }
