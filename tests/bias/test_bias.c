@@ -575,3 +575,26 @@ TEST(is_lost_in_fragments) {
     }
     assert_int_equal(lost, 5); /* linear, log, three.js twice, Cesium */
 }
+
+/* What a slope changes window depth by from a pixel to the next: the difference of two depths, in every mapping. */
+TEST(slope_in_the_window) {
+    rng r = rng_make("window slope");
+    tally t = {.name = "slopes"};
+    for (uint64_t n = test_cases(300, 3000, 100000); n > 0; n--) {
+        dp_spec spec = dp_spec_default();
+        dp_setup setup;
+        spec.mapping = (dp_mapping)(n % DP_MAPPING_COUNT);
+        spec.znear = rng_log(&r, 0.01, 20.0);
+        spec.zfar = spec.znear * rng_log(&r, 3.0, 1e4);
+        spec.log_c = rng_log(&r, 0.1, 10.0);
+        spec.ortho = rng_below(&r, 4) == 0;
+        if (dp_setup_init(&setup, &spec) != DP_OK)
+            continue;
+        const double z = rng_uniform(&r, 0.1, 0.9) * (spec.zfar - spec.znear) + spec.znear, step = 1e-4 * z;
+        const double change = (dp_window(&setup, z + step) - dp_window(&setup, z - step)) / (2.0 * step);
+        const double slope = rng_log(&r, 1e-3, 1.0), m = bias_window_slope(&setup, z, slope);
+        TALLY(&t, fabs(m - fabs(change) * slope) <= 1e-5 * m, "%s near %g far %g at %g: %g, not %g",
+              dp_mapping_get(spec.mapping)->name, spec.znear, spec.zfar, z, m, fabs(change) * slope);
+    }
+    tally_end(&t);
+}

@@ -469,3 +469,16 @@ TEST(shaders_are_told) {
     check_says(0, "guaranteed for every log2", "table -m log -F d24 --range 1:5");
     check_says(0, "!every log2", "table -m d3d,reversed,gl,gl-reversed,linear -F d24,fp32 --range 1:5 --at 2,3");
 }
+
+/* Two ranges that share codes: each with its own ends, of which window depths from 0.5 to 0.6 are both's. */
+TEST(ranges_that_share_codes) {
+    json_t *root = json_printed(0, "table --depth-range 0:0.6,0.5:1 --json -F d16 --at 1 -m d3d");
+    const json_t *pair = node_at(root, "shared[0]");
+    assert_int_equal(json_array_size(node_at(root, "shared")), 1);
+    assert_true(number_at(pair, "first.lo") == 0 && number_at(pair, "first.hi") == 0.6);
+    assert_true(number_at(pair, "second.lo") == 0.5 && number_at(pair, "second.hi") == 1);
+    assert_true(number_at(pair, "first.z_hi") == 1000 && number_at(pair, "second.z_lo") == 0.1);
+    assert_true(number_at(pair, "code_from") == 32768 && number_at(pair, "code_to") == 39321);
+    assert_true(number_at(pair, "codes") == 39321 - 32768 + 1);
+    json_decref(root);
+}

@@ -70,6 +70,36 @@ TEST(solve) {
     tally_end(&t);
 }
 
+/* "guaranteed from z = A up to z = B; at any slant up to z = C; first found to z-fight at z = D". */
+TEST(solve_for_distance) {
+    static const struct {
+        const char *phrase, *path;
+        side to;
+    } said[] = {{"is guaranteed from z = 0.1 up to z = ", "answer.distance", DOWN},
+                {"; at any slant up to z = ", "answer.any_slant.distance", DOWN},
+                {"in the lattice up to ", "answer.lattice.distance", DOWN}};
+    tally t = {.name = "distances"};
+    rng r = rng_make("outward distances");
+    for (uint64_t i = test_cases(8, 20, 200); i > 0; i--) {
+        char line[256];
+        snprintf(line, sizeof line, "solve --for distance -n 0.1 -f 1000 -F %s -m d3d --separation %.5g",
+                 rng_below(&r, 2) ? "d24" : "fp32", rng_log(&r, 0.003, 0.1));
+        char *text = output_of(0, line, "");
+        json_t *root = json_printed(0, "%s", line);
+        printed_unfold(text);
+        for (size_t k = 0; k < sizeof said / sizeof said[0]; k++) {
+            const char *at = strstr(text, said[k].phrase);
+            TALLY(&t, at != NULL, "%s: no '%s'", line, said[k].phrase);
+            if (at != NULL)
+                check_side(&t, line, said[k].path, at + strlen(said[k].phrase), number_at(root, "%s", said[k].path),
+                           said[k].to);
+        }
+        json_decref(root);
+        free(text);
+    }
+    tally_end(&t);
+}
+
 /* "... first z-fight at z = F, and always from z = A on", wherever the line is broken. */
 TEST(zfight) {
     tally t = {.name = "zfight"};
@@ -81,13 +111,8 @@ TEST(zfight) {
                  rng_log(&r, 0.0005, 0.003));
         char *text = output_of(0, line, "");
         json_t *root = json_printed(0, "%s", line);
-        for (char *c = text; *c != '\0'; c++)
-            *c = *c == '\n' ? ' ' : *c;
-        char flat[8192] = "";
-        for (size_t k = 0, used = 0; text[k] != '\0' && used + 1 < sizeof flat; k++)
-            if (text[k] != ' ' || k == 0 || text[k - 1] != ' ')
-                flat[used++] = text[k];
-        const char *first = strstr(flat, "first z-fight at z = "), *always = strstr(flat, "always from z = ");
+        printed_unfold(text);
+        const char *first = strstr(text, "first z-fight at z = "), *always = strstr(text, "always from z = ");
         if (first != NULL)
             check_side(&t, line, "first", first + 21, number_at(root, "setups[0].first"), DOWN);
         if (always != NULL)

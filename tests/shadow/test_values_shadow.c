@@ -703,3 +703,9 @@ TEST(numbers_of_the_first_engine) {
     }
     tally_end(&t);
 }
+
+/* A 0 is as long in any unit, and needs none beside lengths that have one. */
+TEST(a_zero_needs_no_unit) {
+    check_says(0, "fp32 d3d", "shadow --light-box 20x20x100 --range 0:50m");
+    check_says(2, "must have a unit in all places or in none", "shadow --light-box 20x20x100 --range 1:50m");
+}

@@ -891,3 +891,13 @@ TEST(most_room) {
         json_decref(all);
     }
 }
+
+/* A matrix says the planes: nothing is assumed of them. */
+TEST(planes_of_a_matrix_are_given) {
+    check_says(0, "assumed        near 0.1, far inf: not given", "solve --for distance --separation 0.01");
+    printed p = print_of("solve --matrix 1,0,0,0,0,1.78,0,0,0,0,1.0001,-0.10001,0,0,1,0 -m d3d --for distance "
+                         "--separation 0.01");
+    assert_int_equal(p.status, 0);
+    assert_true(strstr(p.out, "near 0.1, far 1000.1") != NULL && strstr(p.out, "assumed") == NULL);
+    printed_free(&p);
+}
