@@ -164,3 +164,35 @@ TEST(test_rows) {
         assert_int_equal(strstr(row->newest, "over a year old") != NULL, strncmp(row->newest, "2025-11", 7) < 0);
     }
 }
+
+/* What depth24plus is: each platform is named once, behind the format that --platform makes of it, or as open. */
+TEST(what_depth24plus_is) {
+    static const char *const names[] = {"depth24plus", "depth24plus-stencil8"};
+    for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
+        size_t named = 0;
+        char begin[64];
+        printed p = print_of("table -F %s -m d3d --at 10", names[k]);
+        assert_int_equal(p.status, 0);
+        printed_unfold(p.out);
+        snprintf(begin, sizeof begin, "%s is ", names[k]);
+        const char *text = strstr(p.out, begin), *either = text != NULL ? strstr(text, "either in ") : NULL;
+        assert_true(text != NULL && either != NULL && strstr(text, ": --platform takes one.") != NULL);
+        for (size_t i = 0; platform_get(i) != NULL; i++) {
+            const char *name = platform_get(i)->name, *stored = platform_stores(platform_get(i), names[k]);
+            const char *at = strstr(text, name);
+            if (stored == NULL)
+                continue;
+            const bool open = strncmp(stored, "depth24plus", strlen("depth24plus")) == 0;
+            const char *fp32 = strstr(text, "fp32 in "), *unorm24 = strstr(text, "unorm24 in ");
+            const char *from = open ? either : strcmp(stored, "fp32") == 0 ? fp32 : unorm24;
+            const char *end = from == fp32 && unorm24 > fp32 ? unorm24
+                              : from != either               ? either
+                                                             : strstr(text, ": --platform");
+            if (!(at != NULL && from != NULL && at > from && at < end))
+                fail_msg("%s: %s is %s, in: %.400s", names[k], name, stored, text);
+            named++;
+        }
+        assert_true(named > 5);
+        printed_free(&p);
+    }
+}

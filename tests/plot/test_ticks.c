@@ -86,10 +86,11 @@ TEST(even_steps) {
 
 TEST(decades) {
     rng r = rng_make("decades");
-    tally t[] = {{.name = "never too many"}, {.name = "two of them"}};
+    tally t[] = {{.name = "never too many"}, {.name = "two of them"}, {.name = "plain up to 10000"}};
     for (uint64_t n = test_cases(2000, 20000, 1000000); n > 0; n--) {
-        const double lo = rng_log(&r, 1e-18, 1e12);
-        const chart_axis axis = {.scale = CHART_LOG, .lo = lo, .hi = lo * rng_log(&r, 1.5, 1e15)};
+        const double lo = n % 2 ? pow(10, -(double)rng_below(&r, 5)) : rng_log(&r, 1e-18, 1e12);
+        const double hi = n % 4 == 1 ? pow(10, 1 + (double)rng_below(&r, 5)) : lo * rng_log(&r, 1.5, 1e15);
+        const chart_axis axis = {.scale = CHART_LOG, .lo = lo, .hi = hi};
         const int room = 2 + (int)rng_below(&r, 12);
         double at[TICKS_MAX];
         ticks got;
@@ -98,6 +99,12 @@ TEST(decades) {
         TALLY(&t[0], count <= (size_t)room + 2, "%zu labels from %.17g to %.17g for %d", count, axis.lo, axis.hi, room);
         TALLY(&t[1], count >= 2 || !has_step(&axis, room + 1), "%zu labels from %.17g to %.17g for %d", count, axis.lo,
               axis.hi, room);
+        /* From 0.001 to 10000 as numbers, beyond them all powers as such: 10 with what is raised. */
+        const bool powers = ceil(log10(lo) - 1e-6) < -3 || floor(log10(hi) + 1e-6) > 4;
+        for (size_t i = 0; i < got.count && floor(log10(hi) + 1e-6) > ceil(log10(lo) - 1e-6); i++)
+            if (got.items[i].text[0] != '\0' && fabs(log10(got.items[i].at) - rint(log10(got.items[i].at))) < 1e-6)
+                TALLY(&t[2], (strspn(got.items[i].text, "0123456789.") < strlen(got.items[i].text)) == powers,
+                      "%s from %.17g to %.17g", got.items[i].text, lo, hi);
     }
     for (size_t i = 0; i < sizeof t / sizeof t[0]; i++)
         tally_end(&t[i]);

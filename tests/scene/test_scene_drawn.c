@@ -244,8 +244,8 @@ static void judge_finding(rng *r, stage *s, const finder_finding *f, outcome *ou
     const double znear = s->setup.spec.znear, end = fmin(s->setup.spec.zfar, 1e4 * znear);
     const scene_verdict v = scene_judge(&s->setup, f->gap_min, f->gap_max, end);
     const double apart = s->gap[f->b] - s->gap[f->a];
-    TALLY(&out->found, f->a < f->b && f->gap_min > 0.9 * apart && f->gap_max < 1.1 * apart, "%g to %g, not %g",
-          f->gap_min, f->gap_max, apart);
+    TALLY(&out->found, f->a < f->b && f->gap_min > 0.9 * apart && f->gap_max >= f->gap_min && f->gap_max < 1.1 * apart,
+          "%g to %g, not %g", f->gap_min, f->gap_max, apart);
     for (int i = 0; i < EYES && v.certain_to > 1.5 * znear; i++) {
         const double share = i == 0 ? rng_log(r, 1, 8) : rng_below(r, 2) == 0 ? 0.95 : rng_log(r, 0.2, 1);
         scene_eye eye;

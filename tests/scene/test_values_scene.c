@@ -357,3 +357,19 @@ TEST(refused) {
     CHECK_REFUSED("scene", models);
     CHECK_REFUSED("scene " STREET, rows);
 }
+
+/* How far apart surfaces are is a length, on whichever side of the first the second lies. */
+TEST(a_gap_behind_the_first) {
+    for (int behind = 0; behind < 2; behind++) {
+        const char *path = scratch_text("pair.obj",
+                                        "o first\nv 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\n"
+                                        "o second\nv 0 0 %s\nv 4 0 %s\nv 0 4 %s\nf 4 5 6\n",
+                                        behind ? "-0.0078125" : "0.0078125", behind ? "-0.0078125" : "0.0078125",
+                                        behind ? "-0.0078125" : "0.0078125");
+        json_t *root = json_printed(0, "scene %s --separation 0.02", path);
+        const json_t *found = node_at(root, "findings[0]");
+        assert_int_equal(json_array_size(node_at(root, "findings")), 1);
+        assert_true(number_at(found, "gap_min") == 0x1p-7 && number_at(found, "gap_max") == 0x1p-7);
+        json_decref(root);
+    }
+}
