@@ -365,3 +365,32 @@ TEST(census) {
     }
     json_decref(root);
 }
+
+static bool same_csv(const char *figure, const char *setup, const char *model) {
+    printed a = print_of("plot %s %s --csv", figure, setup);
+    printed b = print_of("plot %s %s --model %s --csv", figure, setup, model);
+    assert_true(a.status == 0 && b.status == 0);
+    const char *one = strchr(a.out, '\n'), *other = strchr(b.out, '\n'); /* heads may name the model */
+    const bool same = one != NULL && other != NULL && strcmp(one, other) == 0;
+    printed_free(&a);
+    printed_free(&b);
+    return same;
+}
+
+/* Figures that count codes count those that are reached: with NDC of [-1, 1] of two roundings, staged; else all. */
+TEST(codes_that_are_reached) {
+    size_t count = 0;
+    for (size_t i = 0; figure_get(i) != NULL; i++) {
+        const figure_row *row = figure_get(i);
+        const bool small = (row->takes & FIGURE_SMALL) != 0;
+        if ((row->takes & FIGURE_STAGED) == 0 && strcmp(row->name, "share") != 0)
+            continue;
+        count++;
+        const char *gl = small ? "-F float4.3 -m gl" : "-F fp32 -m gl",
+                   *d3d = small ? "-F float4.3 -m d3d" : "-F fp32 -m d3d";
+        if (!same_csv(row->name, gl, "staged") || !same_csv(row->name, d3d, "exact") ||
+            (!small && same_csv(row->name, gl, "exact")))
+            fail_msg("plot %s", row->name);
+    }
+    assert_true(count >= 3);
+}
