@@ -247,7 +247,7 @@ static void count_run(const convert_chain *chain, bool back, const run *r, conve
     out->codes += all;
     out->beyond += is_beyond(&r->path) ? all : 0;
     out->merged += all - 1;
-    if (out->changed == 0 && all > kept)
+    if (out->changed == 0) /* of a run that keeps all the next one takes it back */
         out->first = convert_code(chain, r->lo + (kept && like == r->lo));
     out->changed += all - kept;
     if (back) {

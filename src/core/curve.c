@@ -72,11 +72,7 @@ static double ranged_gap(const dp_setup *setup, dp_point p, double z) {
     const double f = setup->spec.zfar;
     const shares s = shares_of(setup, p);
     const double below = setup->curve == DP_CURVE_LINEAR ? s.whole : divisor(setup, s);
-    if (s.far == 0.0)
-        return n - z;
-    if (s.near == 0.0)
-        return f - z;
-    if (z > 0x1p600)
+    if (s.far == 0.0 || s.near == 0.0 || z > 0x1p600)
         return dp_curve_eye(setup, p) - z;
     double near[DP_SUM_TERMS], far[DP_SUM_TERMS];
     exact_share(setup, p, 1, near);

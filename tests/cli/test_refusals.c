@@ -542,6 +542,7 @@ static const refusal refusals[] = {
     {"texture --synthetic plane --product packed-normal -o x.npy", "product", 2},
     {"texture --synthetic plane --product effect:fog --error-map --range 0:1 -o x.png", "range", 2},
     {"methods linearize --mine x.glsl:f --ortho", "ortho", 2},
+    {"table --preset maplibre:height=800,zoom=1,zoom=2", "preset", 2},
     {"texture --synthetic plane --parameter distance", "parameter", 2},
     {"texture --synthetic plane --parameter distance=-1", "parameter", 2},
     {"texture --synthetic plane --product eye", "", 2},

@@ -318,6 +318,22 @@ TEST(ways_side_by_side) {
     json_decref(root);
 }
 
+/*
+ * A quotient just below the middle between two floats, which binary64 rounds to it: 21 ones, three bits, 01111111, and
+ * over 2^32 - 1 the same again. The nearest float has the first 24 bits, also where they are odd.
+ */
+TEST(rounded_twice) {
+    for (uint32_t bits = 4; bits < 8; bits++) {
+        const uint32_t code = 0xFFFFF800 | bits << 8 | 0x7F;
+        printed p = print_of("convert unorm32 fp32 --code %u --json", code);
+        json_t *root = json_of(p.out);
+        assert_int_equal(p.status, 0);
+        assert_true(number_at(root, "codes[0].becomes") == 0x3F000000 + (0x7FFFF8 | bits));
+        json_decref(root);
+        printed_free(&p);
+    }
+}
+
 /* 16 bits in 24: c 2^8 is the largest whose high bits are c. */
 TEST(bits_that_are_moved) {
     const char *const names[3] = {"unorm16", "unorm24", "unorm16"}, *const up[3] = {"unorm16", "unorm24", NULL};

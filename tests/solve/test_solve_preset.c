@@ -122,6 +122,7 @@ TEST(test_printed) {
     assert_non_null(zoom);
     const double said = strtod(zoom + strlen("zoom "), NULL);
     assert_true(said >= a.from && said < a.from + 1e-3 && preset_passes(&p, said) && a.below && !a.above);
+    assert_true(strspn(zoom + strlen("zoom "), "0123456789.") <= 8); /* no more digits than that takes */
     assert_true(keeps(said, 0, 800, 100, (double)NAN, true));
     assert_false(keeps(said - 1, 0, 800, 100, (double)NAN, false)); /* steps come and go by less than a level */
     printed_free(&text);
