@@ -152,3 +152,49 @@ TEST(no_true_plane_is_farther_off) {
         }
     tally_end(&t);
 }
+
+static double half_of(double x) {
+    const int e = x != 0 ? ilogb(x) : 0;
+    return ldexp(rint(ldexp(x, 10 - e)), e - 10);
+}
+
+/* What the neighbours' shares of the picture and depths lose in binary16 before all else: by places moved so, in long
+ * double. It is as much as the bound is above that of a method whose places alone are of binary16. */
+TEST(shares_of_the_picture_in_binary16) {
+    const normal_row *shares = normal_find("medium-half"), *places = normal_find("low-half");
+    rng r = rng_make("normal shares");
+    tally t = {.name = "shares in binary16"};
+    double most = 0;
+    for (uint64_t n = test_cases(2000, 20000, 200000); n > 0; n--) {
+        const bool ortho = rng_below(&r, 3) == 0;
+        const double near = rng_log(&r, 0.01, 10);
+        const texture_camera c = view_camera("fp32", DP_MAPPING_REVERSED, near, near * 1e4, ortho, SIDE, SIDE,
+                                             ortho ? near * rng_log(&r, 0.01, 3) : rng_uniform(&r, 5, 120));
+        view_picture p = view_picture_of(&c);
+        normal_tap taps[3], moved[3];
+        double z[3], half[3], exact[3], rounded[3];
+        if (take_taps(&r, &c, shares, &p, taps)) {
+            for (int i = 0; i < 3; i++) {
+                taps[i].reach = 0;
+                moved[i] = taps[i];
+                z[i] = half[i] = taps[i].stored;
+                if (i == 0)
+                    continue;
+                moved[i].column = half_of((taps[i].column + 0.5) / SIDE) * SIDE - 0.5;
+                moved[i].row = SIDE - 0.5 - half_of((SIDE - taps[i].row - 0.5) / SIDE) * SIDE;
+                half[i] = half_of(z[i]);
+            }
+            normal_through(&c, taps, z, exact);
+            normal_through(&c, moved, half, rounded);
+            const double off = normal_angle(exact, rounded), bound = normal_corner_bound(&c, shares, taps, 0);
+            const double without = normal_corner_bound(&c, places, taps, 0);
+            TALLY(&t, !(bound < 1) || off <= (bound - without) * (1 + 1e-9), "off by %.9g, not %.9g", off,
+                  bound - without);
+            most = bound < 1 ? fmax(most, off / (bound - without)) : most;
+        }
+        view_picture_free(&p);
+    }
+    print_message("# at most %.2f of it\n", most);
+    assert_true(most > 0.3);
+    tally_end(&t);
+}
