@@ -122,7 +122,7 @@ static void check_names(const char *setups, const char *const *names, size_t cou
     static const svg_font fonts[] = {{17, true}, {13, true}, {13, false}, {12, false}};
     char line[128];
     snprintf(line, sizeof line, "plot cost %s --at 100 --figure-size 800x500 -o -", setups);
-    char *bytes = drawn_output(line);
+    char *bytes = drawn_output("%s", line);
     svg *page = svg_read(bytes, strlen(bytes), fonts, sizeof fonts / sizeof fonts[0]);
     double above = 0;
     for (size_t i = 0; i < count; i++) {
