@@ -377,6 +377,9 @@ TEST(test_spirv) {
     assert_relative(number_at(root, "fits[0].near"), 0.1, 1e-6);
     assert_relative(number_at(root, "fits[0].far"), 1000, 1e-4);
     json_decref(root);
+    FILE *longer = fopen(made, "ab"); /* words of four bytes, and one more */
+    assert_true(longer != NULL && fputc(0, longer) == 0 && fclose(longer) == 0);
+    check_says(2, "is no SPIR-V", "judge %s -m d3d " CAMERA, made);
 }
 
 /* All codes are looked at: the one that is off is found, and so is the worst of the others. */
