@@ -105,7 +105,7 @@ count=$(wc -l <"$folder/rows")
 
 copy() { # copy TREE: what git and make know of the working tree, and its build, no older or newer than there
     mkdir -p "$1/build"
-    for part in Makefile README.md LICENSE* .clang-format .ci include src tests man plots; do
+    for part in Makefile *.md LICENSE* .clang-format .ci include src tests man plots; do
         cp -a "$part" "$1"
     done
     for part in obj web npm dist tests depthprec depthprec.html libdepthprec.a libdepthprec.so.0 librooms.a libsupport.a \
