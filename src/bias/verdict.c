@@ -153,7 +153,7 @@ static bool find_witness(const dp_setup *setup, const bias_state *state, const b
                 .state = state,
                 .asked = asked,
                 .apart = setup->spec.triangles.width == 0,
-                .lo = judged ? v->lo : lo,
+                .lo = judged ? v->lo : fmin(fmax(lo, setup->spec.znear + asked->gap), hi), /* no layer lies nearer */
                 .hi = judged ? v->hi : hi,
                 .found = v};
     s.nearest = (float)dp_window(setup, s.lo);

@@ -57,6 +57,16 @@ static bool has_step(const chart_axis *axis, double most) {
     return false;
 }
 
+/* Makes them, and judges how many have labels; @return that. */
+static size_t make(tally t[2], const chart_axis *axis, int room, ticks *got, double at[TICKS_MAX]) {
+    ticks_make(axis, room, got);
+    const size_t count = labels_of(got, axis, at);
+    TALLY(&t[0], count <= (size_t)room + 2, "%zu labels from %.17g to %.17g for %d", count, axis->lo, axis->hi, room);
+    TALLY(&t[1], count >= 2 || !has_step(axis, room + 1), "%zu labels from %.17g to %.17g for %d", count, axis->lo,
+          axis->hi, room);
+    return count;
+}
+
 TEST(even_steps) {
     rng r = rng_make("even steps");
     tally t[] = {{.name = "never too many"}, {.name = "two where a step allows it"}, {.name = "steps of 1, 2 or 5"}};
@@ -67,11 +77,7 @@ TEST(even_steps) {
         const int room = 2 + (int)rng_below(&r, 12);
         double at[TICKS_MAX];
         ticks got;
-        ticks_make(&axis, room, &got);
-        const size_t count = labels_of(&got, &axis, at);
-        TALLY(&t[0], count <= (size_t)room + 2, "%zu labels from %.17g to %.17g for %d", count, axis.lo, axis.hi, room);
-        TALLY(&t[1], count >= 2 || !has_step(&axis, room + 1), "%zu labels from %.17g to %.17g for %d", count, axis.lo,
-              axis.hi, room);
+        const size_t count = make(t, &axis, room, &got, at);
         if (count < 2)
             continue;
         const double step = at[1] - at[0], digit = step / pow(10, floor(log10(step * (1 + 1e-6))));
@@ -94,11 +100,7 @@ TEST(decades) {
         const int room = 2 + (int)rng_below(&r, 12);
         double at[TICKS_MAX];
         ticks got;
-        ticks_make(&axis, room, &got);
-        const size_t count = labels_of(&got, &axis, at);
-        TALLY(&t[0], count <= (size_t)room + 2, "%zu labels from %.17g to %.17g for %d", count, axis.lo, axis.hi, room);
-        TALLY(&t[1], count >= 2 || !has_step(&axis, room + 1), "%zu labels from %.17g to %.17g for %d", count, axis.lo,
-              axis.hi, room);
+        make(t, &axis, room, &got, at);
         /* From 0.001 to 10000 as numbers, beyond them all powers as such: 10 with what is raised. */
         const bool powers = ceil(log10(lo) - 1e-6) < -3 || floor(log10(hi) + 1e-6) > 4;
         for (size_t i = 0; i < got.count && floor(log10(hi) + 1e-6) > ceil(log10(lo) - 1e-6); i++)

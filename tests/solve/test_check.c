@@ -418,6 +418,12 @@ TEST(biases) {
                   "range = [0.1, 10.0]; bias = { api = \"gl\"; units = -5700000; separation = \"5 cm\"; };");
     assert_true(j.verdicts[0].passed && fabs(j.verdicts[0].value / (-0x1p24 / 3) - 1) < 1e-3);
     done(&j);
+    /* Where no bias is proven, nothing that lies there is a witness against it. */
+    j = judge_one("near = 0.1; far = 1000; mapping = \"d3d\"; format = \"unorm24\"; viewport = [640, 480]; "
+                  "subpixel = 1; fov = 60;",
+                  "range = [0.1, 10.0]; bias = { api = \"gl\"; units = -5700000; separation = \"5 cm\"; };");
+    assert_true(!j.verdicts[0].passed && j.verdicts[0].answer == BIAS_NOT_PROVEN);
+    done(&j);
 }
 
 TEST(ties_are_counted_when_needed) {
