@@ -412,10 +412,14 @@ TEST(biases) {
                   "at = 10; bias = { api = \"gl\"; units = -167; separation = \"1 cm\"; };");
     assert_true(!j.verdicts[0].passed && j.verdicts[0].value == -168);
     done(&j);
+}
+
+/* With a separation, from the near plane on. */
+TEST(biases_from_near) {
     /* From the near plane on no layer lies 5 cm in front of what is nearer than 15 cm, where it takes (1 - n/z)/(1 -
      * n/f) of the window: a third. */
-    j = judge_one("near = 0.1; far = 1000; mapping = \"gl\"; format = \"unorm24\";",
-                  "range = [0.1, 10.0]; bias = { api = \"gl\"; units = -5700000; separation = \"5 cm\"; };");
+    judged j = judge_one("near = 0.1; far = 1000; mapping = \"gl\"; format = \"unorm24\";",
+                         "range = [0.1, 10.0]; bias = { api = \"gl\"; units = -5700000; separation = \"5 cm\"; };");
     assert_true(j.verdicts[0].passed && fabs(j.verdicts[0].value / (-0x1p24 / 3) - 1) < 1e-3);
     done(&j);
     /* Where no bias is proven, nothing that lies there is a witness against it. */
